@@ -1,0 +1,88 @@
+# One CMake target a folder. `pliant_add_library(core/mechanics DEPENDS core/geometry ...)` compiles the
+# folder's *.cpp files into the static library `pliant_core_mechanics`. A folder can include only what it
+# links, and it links only folders below itself, so the link graph enforces the include rule.
+
+find_program(PLIANT_CCACHE ccache)
+if(PLIANT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PLIANT_CCACHE})
+endif()
+
+add_library(pliant_options INTERFACE)
+target_include_directories(pliant_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_definitions(pliant_options INTERFACE PLIANT_VERSION="${PROJECT_VERSION}")
+target_compile_options(pliant_options INTERFACE -ffp-contract=fast)
+if(PLIANT_NATIVE)
+  target_compile_options(pliant_options INTERFACE -march=native)
+endif()
+if(PLIANT_SANITIZE)
+  target_compile_options(pliant_options INTERFACE -fsanitize=${PLIANT_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(pliant_options INTERFACE -fsanitize=${PLIANT_SANITIZE})
+endif()
+
+# Linked last and privately, so that warnings concern our own files alone.
+add_library(pliant_warnings INTERFACE)
+target_compile_options(pliant_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wno-psabi
+                       $<$<BOOL:${PLIANT_WARNINGS_AS_ERRORS}>:-Werror>)
+
+function(pliant_target_name out folder)
+  string(REPLACE "/" "_" name ${folder})
+  set(${out} pliant_${name} PARENT_SCOPE)
+endfunction()
+
+# pliant_add_library(FOLDER [DEPENDS FOLDER...] [LIBRARIES TARGET...] [PRIVATE_LIBRARIES TARGET...] [QT])
+function(pliant_add_library folder)
+  cmake_parse_arguments(ARG "QT" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  pliant_target_name(target ${folder})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  add_library(${target} STATIC ${sources})
+  set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
+  if(ARG_QT)
+    set_target_properties(${target} PROPERTIES AUTOMOC ON AUTORCC ON)
+  endif()
+  set(dependencies)
+  foreach(dependency ${ARG_DEPENDS})
+    pliant_target_name(name ${dependency})
+    list(APPEND dependencies ${name})
+  endforeach()
+  target_link_libraries(${target} PUBLIC pliant_options ${dependencies} ${ARG_LIBRARIES}
+                        PRIVATE ${ARG_PRIVATE_LIBRARIES} pliant_warnings)
+endfunction()
+
+# pliant_add_executable(NAME FOLDER [DEPENDS FOLDER...] [LIBRARIES TARGET...] [QT]): build/bin/NAME, whatever the preset
+function(pliant_add_executable target folder)
+  cmake_parse_arguments(ARG "QT" "" "DEPENDS;LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  add_executable(${target} ${sources})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_SOURCE_DIR}/build/bin)
+  if(ARG_QT)
+    set_target_properties(${target} PROPERTIES AUTOMOC ON AUTORCC ON)
+  endif()
+  set(dependencies)
+  foreach(dependency ${ARG_DEPENDS})
+    pliant_target_name(name ${dependency})
+    list(APPEND dependencies ${name})
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${dependencies} ${ARG_LIBRARIES} pliant_options pliant_warnings)
+endfunction()
+
+# pliant_add_test(FILE LABEL core|scenes|ui|screenshots|long... [DEPENDS FOLDER...] [LIBRARIES TARGET...])
+# compiles the Qt Test FILE.cpp (relative to the calling folder) into one test program.
+function(pliant_add_test file)
+  cmake_parse_arguments(ARG "" "" "LABEL;DEPENDS;LIBRARIES" ${ARGN})
+  file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  string(REPLACE "/" "." name ${place})
+  set(target test.${name})
+  add_executable(${target} ${file}.cpp)
+  set_target_properties(${target} PROPERTIES AUTOMOC ON RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/bin)
+  set(dependencies)
+  foreach(dependency ${ARG_DEPENDS})
+    pliant_target_name(dependency_target ${dependency})
+    list(APPEND dependencies ${dependency_target})
+  endforeach()
+  target_compile_definitions(${target} PRIVATE PLIANT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${target} PRIVATE ${dependencies} ${ARG_LIBRARIES} Qt6::Test pliant_options pliant_warnings)
+  add_test(NAME ${name} COMMAND ${target})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" ENVIRONMENT
+    "QT_QPA_PLATFORM=offscreen;GALLIUM_DRIVER=llvmpipe;OPENBLAS_NUM_THREADS=1;LC_ALL=C.UTF-8")
+endfunction()

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/harmonic/amplitude.hpp"
+#include "core/harmonic/periodic_motion.hpp"
+
+namespace pliant::harmonic {
+
+struct FrequencyResponseOptions {
+  double from = 0;               ///< first frequency [rad/s]; may be above `to`: the curve is traced downwards
+  double to = 0;                 ///< the curve ends where it crosses `from` or `to` again [rad/s]
+  double initialStep = 0;        ///< in the scaled arc length; 0: chosen from the range
+  double minimumStep = 0;        ///< 0: initialStep / 4096
+  double maximumStep = 0;        ///< 0: chosen from the range
+  int maximumPoints = 2000;
+  double locationTolerance = 1e-6;  ///< relative error of the frequency of folds and peaks
+  PeriodicMotionOptions newton;
+};
+
+enum class PointKind { regular, fold, peak };
+
+/// One solution on the curve.
+struct ResponsePoint {
+  PointKind kind = PointKind::regular;
+  int probe = -1;           ///< peak: of which probe
+  double omega = 0;         ///< [rad/s]
+  double arcLength = 0;     ///< along the curve, in the scaled measure of the continuation
+  Vector z;                 ///< coefficients
+  std::vector<Amplitude> amplitudes;  ///< a probe each
+  double residual = 0;      ///< ‖h‖ / forceScale
+  int newtonIterations = 0;
+};
+
+struct FrequencyResponse {
+  std::vector<ResponsePoint> points;  ///< in the order of the curve, located folds and peaks among them
+  base::SolverReport report;          ///< one record a point
+};
+
+/// Pseudo-arclength continuation (2.3.18, 2.3.19) with step control. `onPoint` is called with each point as it is found
+/// (from the calling thread). If cancelled or stuck, the points so far are returned with the reason.
+FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
+                                         base::ExecutionContext& context,
+                                         const std::function<void(const ResponsePoint&)>& onPoint = {});
+
+}  // namespace pliant::harmonic

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace pliant::math {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// LU of a square sparse matrix. The symbolic analysis is kept and reused as long as the pattern stays the same.
+class SparseFactorization {
+ public:
+  SparseFactorization();
+  ~SparseFactorization();
+  SparseFactorization(SparseFactorization&&) noexcept;
+  SparseFactorization& operator=(SparseFactorization&&) noexcept;
+
+  /// False if the matrix is singular to working precision.
+  bool factorize(const SparseMatrix& matrix);
+
+  /// Solves A x = b, or Aᵀ x = b, for the matrix last factorised, with one step of refinement. `b` is n x m.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  Eigen::MatrixXd solveTransposed(const Eigen::MatrixXd& b) const;
+
+  /// Sign of the determinant, +1 or -1 (0 if singular): it changes where a branch folds or branches.
+  int determinantSign() const;
+  /// Entries in the factors; floating-point operations of the last factorisation.
+  double factorEntries() const;
+  double flops() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace pliant::math

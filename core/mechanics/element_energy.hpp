@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/mechanics/energy.hpp"
+
+namespace pliant::mechanics {
+
+/// Makes an `Energy` of many elements of one kind. `Element` holds an element's rest data and has
+///   static constexpr int coordinates;               // d
+///   static constexpr std::string_view name;
+///   template <class T> T evaluate(const std::array<T, d>& x, std::array<T, d>* gradient,
+///                                 std::array<T, d(d+1)/2>* hessian) const;
+/// which returns the element's energy and overwrites the derivatives that are asked for (Hessian packed by rows of
+/// the lower triangle). Adding a kind of energy is writing such a struct.
+template <class Element>
+class ElementEnergy final : public Energy {
+ public:
+  static constexpr int d = Element::coordinates;
+
+  /// `coordinates[e]` are the global coordinate indices of element e.
+  ElementEnergy(std::vector<Element> elements, std::vector<std::array<int, d>> coordinates)
+      : elements_(std::move(elements)), coordinates_(std::move(coordinates)) {}
+
+  std::string_view name() const override { return Element::name; }
+  int elementCount() const override { return static_cast<int>(elements_.size()); }
+  std::span<const int> elementCoordinates(int element) const override { return coordinates_[element]; }
+  const std::vector<Element>& elements() const { return elements_; }
+
+  void accumulate(const EvaluationBlock<double>& block) const override { accumulateAll(block); }
+  void accumulate(const EvaluationBlock<math::Packet>& block) const override { accumulateAll(block); }
+
+ private:
+  template <class T>
+  void accumulateAll(const EvaluationBlock<T>& block) const {
+    std::array<T, d> x, gradient;
+    std::array<T, packedSize(d)> hessian;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const auto& coordinates = coordinates_[e];
+      for (int i = 0; i < d; ++i) math::load(block.x + coordinates[i] * block.stride, x[i]);
+      const T value = elements_[e].evaluate(x, block.gradient ? &gradient : nullptr, block.hessian ? &hessian : nullptr);
+      if (block.value) math::addTo(block.value, value);
+      if (block.gradient)
+        for (int i = 0; i < d; ++i) math::addTo(block.gradient + coordinates[i] * block.stride, gradient[i]);
+      if (block.hessian) {
+        const int* slots = block.slots + e * packedSize(d);
+        for (int s = 0; s < packedSize(d); ++s)
+          if (slots[s] >= 0) math::addTo(block.hessian + slots[s] * block.stride, hessian[s]);
+      }
+    }
+  }
+
+  std::vector<Element> elements_;
+  std::vector<std::array<int, d>> coordinates_;
+};
+
+}  // namespace pliant::mechanics

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/math/sparse_factorization.hpp"
+#include "core/mechanics/energy.hpp"
+#include "core/mechanics/periodic_signal.hpp"
+
+namespace pliant::mechanics {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using math::SparseMatrix;
+
+/// A mass [kg] put on each of some nodes; a design parameter with bounds.
+struct PointMass {
+  std::string name;
+  std::vector<int> nodes;
+  double mass = 0;
+  double minimum = 0;
+  double maximum = 0;
+};
+
+/// force(τ) = direction * signal(τ) [N] on each of some nodes. `direction` is used as given (not normalised).
+struct HarmonicForce {
+  std::string name;
+  std::vector<int> nodes;
+  Vector direction;  ///< size: dimension
+  PeriodicSignal signal;
+};
+
+/// Positions of some nodes as a function of τ, eliminated exactly from the unknowns.
+class PrescribedMotion {
+ public:
+  virtual ~PrescribedMotion() = default;
+  virtual const std::vector<int>& nodes() const = 0;
+  /// Position at τ of a node that rests at `rest` (both of size: dimension, in metres).
+  virtual Vector position(const Vector& rest, double tau) const = 0;
+};
+
+/// A node whose trajectory and amplitude are reported.
+struct Probe {
+  std::string name;
+  int node = 0;
+};
+
+/// Where the coordinates of one geometry of the scene stand, and what to draw of it.
+struct DisplayPart {
+  std::string name;
+  int firstNode = 0;
+  int nodeCount = 0;
+  std::vector<std::array<int, 3>> triangles;  ///< global node indices
+  std::vector<std::array<int, 2>> segments;   ///< springs
+};
+
+/// Which coordinates are unknown. A coordinate is node * dimension + axis.
+struct DofMap {
+  std::vector<int> freeIndex;        ///< per coordinate: index among the unknowns, or -1
+  std::vector<int> freeCoordinates;  ///< per unknown: its coordinate
+  int freeCount() const { return static_cast<int>(freeCoordinates.size()); }
+};
+
+class DesignParameter;
+
+/// A discrete mechanical system M ẍ + D ẋ + ∇E(x) = f(τ), D = massDamping M + stiffnessDamping ∇²E(x).
+/// Constant once built; copying it is cheap (energies are shared), so a changed parameter is a changed copy.
+struct Model {
+  int dimension = 3;
+  Vector restPositions;  ///< n * dimension [m]
+  std::vector<std::shared_ptr<const Energy>> energies;
+  std::shared_ptr<const SparseMatrix> elementMass;  ///< of the elements, n*dimension square [kg]
+  std::vector<PointMass> pointMasses;
+  double massDamping = 0;       ///< D_α [1/s]
+  double stiffnessDamping = 0;  ///< D_β [s]
+  Vector gravity;               ///< size: dimension [m/s²]
+  std::vector<HarmonicForce> forces;
+  std::vector<std::shared_ptr<const PrescribedMotion>> drives;
+  std::vector<char> lockedCoordinates;  ///< per coordinate: 1 if it keeps its rest value
+  std::vector<Probe> probes;
+  std::vector<DisplayPart> parts;
+  std::vector<std::shared_ptr<const DesignParameter>> parameters;
+  DofMap dofs;  ///< set by finish()
+
+  int nodeCount() const { return static_cast<int>(restPositions.size()) / dimension; }
+  int coordinateCount() const { return static_cast<int>(restPositions.size()); }
+
+  /// Computes `dofs` and checks sizes. Throws base::InputError if no coordinate is free or a node is driven twice.
+  void finish();
+
+  /// M with the point masses, square over all coordinates [kg].
+  SparseMatrix massMatrix() const;
+  /// External forces on all coordinates at τ [N], gravity included.
+  Vector externalForce(double tau) const;
+  /// Positions of all coordinates at τ with the free ones taken from `free` (size freeCount) [m].
+  Vector configuration(const Vector& free, double tau) const;
+};
+
+}  // namespace pliant::mechanics

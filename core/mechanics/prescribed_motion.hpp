@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/mechanics/model.hpp"
+
+namespace pliant::mechanics {
+
+/// rest + direction * signal(τ); `direction` as given, the signal in metres.
+std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, Vector direction, PeriodicSignal signal);
+
+/// Rotation by the angle signal(τ) [rad] about an axis through `center` (in 2 dimensions the axis is ignored: z).
+std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vector center, Eigen::Vector3d axis,
+                                                     PeriodicSignal signal);
+
+}  // namespace pliant::mechanics
