@@ -35,7 +35,7 @@ function(pliant_add_library folder)
   cmake_parse_arguments(ARG "QT" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   pliant_target_name(target ${folder})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
-  add_library(${target} STATIC ${sources})
+  add_library(${target} STATIC ${sources})  # header-only folders are fine
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX)
   if(ARG_QT)
     set_target_properties(${target} PROPERTIES AUTOMOC ON AUTORCC ON)
