@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace pliant::render {
+
+/// Opaque pixels, rows from the top, red, green, blue and alpha bytes.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;  ///< 4 * width * height
+};
+
+/// Writes a PNG file atomically (a temporary file beside it that is renamed). Throws base::InputError if the file cannot be
+/// written.
+void writePng(const Image& image, const std::filesystem::path& file);
+
+}  // namespace pliant::render

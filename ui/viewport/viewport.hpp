@@ -1,0 +1,95 @@
+#pragma once
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QPointF>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+#include <optional>
+
+#include "core/harmonic/harmonic_balance_problem.hpp"
+#include "ui/render/motion_view.hpp"
+
+namespace pliant::viewport {
+
+class RenderSurface;
+
+/// The widget that shows a model and plays its motion. Left drag orbits, middle or shift drag pans, the wheel zooms
+/// towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0 isometrically, Space plays and pauses, a click picks a node.
+/// Colours follow the palette.
+class Viewport : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Viewport(QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  /// See render::MotionView. A new model with as many nodes keeps the camera, another one is fitted.
+  void setModel(std::shared_ptr<const mechanics::Model> model);
+  void setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z);
+  void clearMotion();
+  void setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel = nullptr);
+  void clearPrediction();
+  void setStale(bool stale);
+  void setSelectedNode(std::optional<int> node);
+  void setCaption(const QString& text);
+  void setFieldVisible(bool visible);
+
+  std::optional<int> selectedNode() const;
+  double tau() const;
+  bool isPlaying() const { return timer_.isActive(); }
+  /// Periods shown in a second; 0.5 at first.
+  double speed() const { return speed_; }
+  /// "OpenGL" or "software".
+  QString surfaceName() const;
+
+  /// The picture as it is on the screen, at the screen's resolution.
+  QImage grabImage();
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+ public Q_SLOTS:
+  void play();
+  void pause();
+  void togglePlaying();
+  /// The place in the period [rad], wrapped to [0, 2π).
+  void setTau(double tau);
+  void setSpeed(double periodsPerSecond);
+  void fit();
+  void setAxisView(pliant::render::AxisView view);
+
+ Q_SIGNALS:
+  /// A click hit this node; -1: nothing near. The selection is the receiver's to change.
+  void nodePicked(int node);
+  void tauChanged(double tau);
+  void playingChanged(bool playing);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  void advance();
+  void redraw();
+  void applyTheme();
+
+  render::MotionView view_;
+  std::unique_ptr<RenderSurface> surface_;
+  QTimer timer_;
+  QElapsedTimer clock_;
+  double speed_ = 0.5;
+  bool fitted_ = false;
+  bool dragged_ = false;
+  QPointF pressPosition_;
+  QPointF lastPosition_;
+};
+
+}  // namespace pliant::viewport
