@@ -9,7 +9,8 @@ endif()
 
 add_library(pliant_options INTERFACE)
 target_include_directories(pliant_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_definitions(pliant_options INTERFACE PLIANT_VERSION="${PROJECT_VERSION}")
+target_compile_definitions(pliant_options INTERFACE PLIANT_VERSION="${PROJECT_VERSION}"
+                           PLIANT_DATA_DIR="${PLIANT_DATA_DIR}")
 target_compile_options(pliant_options INTERFACE -ffp-contract=fast)
 if(PLIANT_NATIVE)
   target_compile_options(pliant_options INTERFACE -march=native)
@@ -50,12 +51,19 @@ function(pliant_add_library folder)
                         PRIVATE ${ARG_PRIVATE_LIBRARIES} pliant_warnings)
 endfunction()
 
-# pliant_add_executable(NAME FOLDER [DEPENDS FOLDER...] [LIBRARIES TARGET...] [QT]): build/bin/NAME, whatever the preset
+# pliant_add_executable(NAME FOLDER [DEPENDS FOLDER...] [LIBRARIES TARGET...] [QT]) builds NAME into the preset's own
+# bin folder. build/bin/NAME is a link to that of the preset built last: were it the program itself, the other presets
+# would take it for their own and leave it.
 function(pliant_add_executable target folder)
   cmake_parse_arguments(ARG "QT" "" "DEPENDS;LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
   add_executable(${target} ${sources})
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_SOURCE_DIR}/build/bin)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  set(link ${PROJECT_SOURCE_DIR}/build/bin/${target})
+  add_custom_target(${target}.link COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_SOURCE_DIR}/build/bin
+                    COMMAND ${CMAKE_COMMAND} -E create_symlink ${PROJECT_BINARY_DIR}/bin/${target} ${link}
+                    COMMENT "Linking build/bin/${target}" VERBATIM)
+  add_dependencies(${target} ${target}.link)
   if(ARG_QT)
     set_target_properties(${target} PROPERTIES AUTOMOC ON AUTORCC ON)
     target_compile_definitions(${target} PRIVATE QT_NO_KEYWORDS)  # `slots` is a name in core; write Q_SLOTS
