@@ -44,9 +44,9 @@ class ElementEnergy final : public Energy {
       if (block.gradient)
         for (int i = 0; i < d; ++i) math::addTo(block.gradient + coordinates[i] * block.stride, gradient[i]);
       if (block.hessian) {
-        const int* slots = block.slots + e * packedSize(d);
+        const int* entries = block.entries + e * packedSize(d);
         for (int s = 0; s < packedSize(d); ++s)
-          if (slots[s] >= 0) math::addTo(block.hessian + slots[s] * block.stride, hessian[s]);
+          if (entries[s] >= 0) math::addTo(block.hessian + entries[s] * block.stride, hessian[s]);
       }
     }
   }
