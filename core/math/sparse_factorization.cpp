@@ -76,32 +76,36 @@ struct SparseFactorization::Implementation {
     return x;
   }
 
-  /// ‖S‖₁ ‖S⁻¹‖₁ with S = R A C, where R and C scale every row and column to a largest entry of about 1.
+  /// ‖S‖₁ ‖S⁻¹‖₁ with S = R A C, where R and C scale every row and column to a largest entry of about 1 (Ruiz 2001).
   double estimateCondition() const {
-    Eigen::VectorXd rowScale = Eigen::VectorXd::Zero(matrix.rows());
-    Eigen::VectorXd columnScale = Eigen::VectorXd::Zero(matrix.cols());
-    const auto forEach = [&](const auto& visit) {
-      for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
-        for (SparseMatrix::InnerIterator it(matrix, j); it; ++it) visit(it.row(), j, std::abs(it.value()));
+    const Eigen::Index n = matrix.rows();
+    Eigen::ArrayXd rowScale = Eigen::ArrayXd::Ones(n);
+    Eigen::ArrayXd columnScale = Eigen::ArrayXd::Ones(n);
+    Eigen::ArrayXd columnSums(n);
+    for (int sweep = 0; sweep < 8; ++sweep) {
+      Eigen::ArrayXd rowMaxima = Eigen::ArrayXd::Zero(n);
+      Eigen::ArrayXd columnMaxima = Eigen::ArrayXd::Zero(n);
+      columnSums.setZero();
+      for (Eigen::Index j = 0; j < n; ++j) {
+        for (SparseMatrix::InnerIterator it(matrix, j); it; ++it) {
+          const double value = std::abs(it.value()) * rowScale[it.row()] * columnScale[j];
+          rowMaxima[it.row()] = std::max(rowMaxima[it.row()], value);
+          columnMaxima[j] = std::max(columnMaxima[j], value);
+          columnSums[j] += value;
+        }
       }
-    };
-    forEach([&](Eigen::Index i, Eigen::Index, double value) { rowScale[i] = std::max(rowScale[i], value); });
-    if (rowScale.minCoeff() == 0) return std::numeric_limits<double>::infinity();
-    forEach([&](Eigen::Index i, Eigen::Index j, double value) {
-      columnScale[j] = std::max(columnScale[j], value / rowScale[i]);
-    });
-    if (columnScale.minCoeff() == 0) return std::numeric_limits<double>::infinity();
-    Eigen::VectorXd columnSums = Eigen::VectorXd::Zero(matrix.cols());
-    forEach([&](Eigen::Index i, Eigen::Index j, double value) {
-      columnSums[j] += value / rowScale[i] / columnScale[j];
-    });
+      if (rowMaxima.minCoeff() == 0 || columnMaxima.minCoeff() == 0) return std::numeric_limits<double>::infinity();
+      if (sweep == 7) break;  // the sums belong to the last scales
+      rowScale /= rowMaxima.sqrt();
+      columnScale /= columnMaxima.sqrt();
+    }
     const double inverseNorm = estimateNorm(
-        matrix.rows(),
+        n,
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          return columnScale.cwiseProduct(solveOnce(rowScale.cwiseProduct(x), false).col(0));
+          return solveOnce((x.array() / rowScale).matrix(), false).array() / columnScale;
         },
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          return rowScale.cwiseProduct(solveOnce(columnScale.cwiseProduct(x), true).col(0));
+          return solveOnce((x.array() / columnScale).matrix(), true).array() / rowScale;
         });
     return columnSums.maxCoeff() * inverseNorm;
   }
