@@ -17,9 +17,12 @@ struct SurfaceMesh {
   std::map<std::string, std::vector<int>> groups;
 };
 
+/// A triangle whose area is at most this fraction of its longest edge squared is degenerate.
+inline constexpr double smallestRelativeArea = 1e-10;
+
 /// Throws base::InputError (location empty) with a sentence that names the triangle or point: no triangles, NaN or
-/// infinity, an index out of range, a degenerate triangle (zero area, relative to its longest edge), an edge with more than two triangles,
-/// neighbours of opposite orientation that cannot be made consistent.
+/// infinity, an index out of range, a degenerate triangle (zero area, relative to its longest edge), an edge with more
+/// than two triangles, neighbours of opposite orientation that cannot be made consistent.
 void checkMesh(const SurfaceMesh& mesh);
 
 /// Points closer than `tolerance` [m] made one, triangles oriented consistently within each connected part; triangles

@@ -33,7 +33,7 @@ class ElasticAssembler {
   std::shared_ptr<const Model> model_;
   std::vector<int> rows_;
   std::vector<int> columns_;
-  std::vector<std::vector<int>> slots_;  ///< per energy
+  std::vector<std::vector<int>> entries_;  ///< per energy: `EvaluationBlock::entries`
 };
 
 }  // namespace pliant::mechanics

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/mechanics/model.hpp"
+
+namespace pliant::mechanics {
+
+/// Checks of user input. Each throws base::InputError (location empty) with one sentence that starts with `what`,
+/// such as "the spring's rest length".
+void requireFinite(double value, const std::string& what);
+void requireNotNegative(double value, const std::string& what);
+void requirePositive(double value, const std::string& what);
+/// Finite, and of the given size.
+void requireVector(const Vector& value, int size, const std::string& what);
+/// 2 or 3.
+void requireDimension(int dimension, const std::string& what);
+/// Every index in [0, nodeCount).
+void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& what);
+/// Orders of at least 0, finite amplitudes and phases.
+void requireSignal(const PeriodicSignal& signal, const std::string& what);
+
+}  // namespace pliant::mechanics

@@ -1,0 +1,130 @@
+#include "core/mechanics/model.hpp"
+
+#include "core/base/error.hpp"
+#include "core/mechanics/checks.hpp"
+
+namespace pliant::mechanics {
+
+namespace {
+
+std::string quoted(const char* kind, const std::string& name) { return std::string(kind) + " '" + name + "'"; }
+
+void checkSizes(const Model& model) {
+  requireDimension(model.dimension, "the model");
+  const int count = model.coordinateCount();
+  if (count == 0 || count % model.dimension != 0)
+    throw base::InputError("", "the model must have at least one node, and " + std::to_string(model.dimension) +
+                                   " coordinates for each, but has " + std::to_string(count) + " coordinates");
+  requireVector(model.restPositions, count, "the rest positions");
+  requireVector(model.gravity, model.dimension, "gravity");
+  requireNotNegative(model.massDamping, "the mass damping");
+  requireNotNegative(model.stiffnessDamping, "the stiffness damping");
+  if (model.elementMass && (model.elementMass->rows() != count || model.elementMass->cols() != count))
+    throw base::InputError("", "the element mass matrix must have a row and a column for each of the " +
+                                   std::to_string(count) + " coordinates");
+  if (static_cast<int>(model.lockedCoordinates.size()) != count)
+    throw base::InputError("", "the locked coordinates must be given for each of the " + std::to_string(count) +
+                                   " coordinates");
+}
+
+void checkParts(const Model& model) {
+  const int nodes = model.nodeCount();
+  for (const PointMass& mass : model.pointMasses) {
+    const std::string what = quoted("point mass", mass.name);
+    requireNodes(mass.nodes, nodes, what);
+    requireNotNegative(mass.mass, what);
+    requireNotNegative(mass.minimum, what + "'s lower bound");
+    requireNotNegative(mass.maximum, what + "'s upper bound");
+  }
+  for (const HarmonicForce& force : model.forces) {
+    const std::string what = quoted("force", force.name);
+    requireNodes(force.nodes, nodes, what);
+    requireVector(force.direction, model.dimension, what + "'s direction");
+    requireSignal(force.signal, what);
+  }
+  for (const Probe& probe : model.probes)
+    requireNodes(std::span(&probe.node, 1), nodes, quoted("probe", probe.name));
+  for (const auto& energy : model.energies)
+    for (int e = 0; e < energy->elementCount(); ++e)
+      for (const int coordinate : energy->elementCoordinates(e))
+        if (coordinate < 0 || coordinate >= model.coordinateCount())
+          throw base::InputError("", "element " + std::to_string(e) + " of the " + std::string(energy->name()) +
+                                         " names node " + std::to_string(coordinate / model.dimension) +
+                                         ", but there are " + std::to_string(nodes) + " nodes");
+}
+
+DofMap mapUnknowns(const Model& model) {
+  const int dimension = model.dimension;
+  std::vector<char> fixed = model.lockedCoordinates;
+  std::vector<char> driven(model.nodeCount(), 0);
+  for (const auto& drive : model.drives) {
+    requireNodes(drive->nodes(), model.nodeCount(), "a prescribed motion");
+    for (const int node : drive->nodes()) {
+      if (driven[node]) throw base::InputError("", "node " + std::to_string(node) + " is driven more than once");
+      driven[node] = 1;
+      for (int axis = 0; axis < dimension; ++axis) {
+        if (model.lockedCoordinates[node * dimension + axis])
+          throw base::InputError("", "node " + std::to_string(node) + " is both driven and locked");
+        fixed[node * dimension + axis] = 1;
+      }
+    }
+  }
+  DofMap map;
+  map.freeIndex.assign(model.coordinateCount(), -1);
+  for (int coordinate = 0; coordinate < model.coordinateCount(); ++coordinate) {
+    if (fixed[coordinate]) continue;
+    map.freeIndex[coordinate] = map.freeCount();
+    map.freeCoordinates.push_back(coordinate);
+  }
+  if (map.freeCount() == 0)
+    throw base::InputError("", "every coordinate is driven or locked, so that nothing is left to compute");
+  return map;
+}
+
+}  // namespace
+
+void Model::finish() {
+  if (gravity.size() == 0) gravity = Vector::Zero(dimension);
+  if (lockedCoordinates.empty()) lockedCoordinates.assign(coordinateCount(), 0);
+  checkSizes(*this);
+  checkParts(*this);
+  dofs = mapUnknowns(*this);
+}
+
+SparseMatrix Model::massMatrix() const {
+  SparseMatrix points(coordinateCount(), coordinateCount());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const PointMass& mass : pointMasses)
+    for (const int node : mass.nodes)
+      for (int axis = 0; axis < dimension; ++axis)
+        entries.emplace_back(node * dimension + axis, node * dimension + axis, mass.mass);
+  points.setFromTriplets(entries.begin(), entries.end());
+  return elementMass ? SparseMatrix(*elementMass + points) : points;
+}
+
+Vector Model::externalForce(double tau) const {
+  Vector force = Vector::Zero(coordinateCount());
+  if (!gravity.isZero(0)) {
+    if (elementMass) force += *elementMass * gravity.replicate(nodeCount(), 1);
+    for (const PointMass& mass : pointMasses)
+      for (const int node : mass.nodes) force.segment(node * dimension, dimension) += mass.mass * gravity;
+  }
+  for (const HarmonicForce& load : forces) {
+    const Vector value = load.signal(tau) * load.direction;
+    for (const int node : load.nodes) force.segment(node * dimension, dimension) += value;
+  }
+  return force;
+}
+
+Vector Model::configuration(const Vector& free, double tau) const {
+  Vector x = restPositions;
+  for (int i = 0; i < dofs.freeCount(); ++i) x[dofs.freeCoordinates[i]] = free[i];
+  for (const auto& drive : drives)
+    for (const int node : drive->nodes()) {
+      const Vector rest = restPositions.segment(node * dimension, dimension);
+      x.segment(node * dimension, dimension) = drive->position(rest, tau);
+    }
+  return x;
+}
+
+}  // namespace pliant::mechanics

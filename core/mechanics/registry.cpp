@@ -1,0 +1,119 @@
+#include "core/mechanics/registry.hpp"
+
+#include "core/geometry/mesh_generators.hpp"
+#include "core/mechanics/point_mass_parameter.hpp"
+#include "core/mechanics/shell.hpp"
+#include "core/mechanics/spring.hpp"
+
+namespace pliant::mechanics {
+
+namespace {
+
+double uniform(std::mt19937& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+Vector randomVector(std::mt19937& random, int size, double scale) {
+  return Vector::NullaryExpr(size, [&] { return uniform(random, -scale, scale); });
+}
+
+ShellMaterial randomMaterial(std::mt19937& random) {
+  return {.youngModulus = uniform(random, 1e5, 1e7),
+          .poissonRatio = uniform(random, -0.3, 0.45),
+          .density = uniform(random, 500, 2000),
+          .thickness = uniform(random, 1e-3, 1e-2)};
+}
+
+SpringLaw randomLaw(std::mt19937& random) {
+  return {{uniform(random, 1, 10), uniform(random, -3, 3), uniform(random, 0.5, 5)}};
+}
+
+/// A patch of 2 x 2 cells with its points moved by up to a fifth of a cell, bent out of its plane in 3 dimensions.
+Model randomPatch(std::mt19937& random, int dimension, Triangles& triangles) {
+  const geometry::SurfaceMesh mesh = geometry::makeGrid(0.2, 0.2, 2, 2);
+  triangles = mesh.triangles;
+  Model model;
+  model.dimension = dimension;
+  model.restPositions = mesh.points.topRows(dimension).reshaped();
+  model.restPositions += randomVector(random, model.coordinateCount(), 0.02);
+  return model;
+}
+
+Model membraneExample(std::mt19937& random, int dimension) {
+  Triangles triangles;
+  Model model = randomPatch(random, dimension, triangles);
+  model.energies.push_back(makeMembrane(dimension, model.restPositions, triangles, randomMaterial(random)));
+  model.finish();
+  return model;
+}
+
+/// Nodes for springs, at places that are about 1 m apart.
+Model randomNodes(std::mt19937& random, int dimension, int count) {
+  Model model;
+  model.dimension = dimension;
+  model.restPositions = randomVector(random, count * dimension, 0.2);
+  for (int node = 0; node < count; ++node) model.restPositions[node * dimension + node % dimension] += 1;
+  return model;
+}
+
+Model springExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, 3);
+  model.energies.push_back(makeSpring(dimension, 0, 1, uniform(random, 0.5, 1), randomLaw(random)));
+  model.energies.push_back(makeSpring(dimension, 2, 1, 0, randomLaw(random)));
+  model.finish();
+  return model;
+}
+
+Model anchoredSpringExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, 1);
+  model.energies.push_back(
+      makeAnchoredSpring(dimension, 0, randomVector(random, dimension, 0.2), uniform(random, 0.5, 1), randomLaw(random)));
+  model.finish();
+  return model;
+}
+
+Model groundedSpringExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, 1);
+  model.energies.push_back(makeGroundedSpring(dimension, 0, model.restPositions,
+                                              randomVector(random, dimension, 1).normalized(), randomLaw(random)));
+  model.finish();
+  return model;
+}
+
+Model pointMassExample(std::mt19937& random) {
+  Model model = springExample(random, 3);
+  model.gravity = randomVector(random, 3, 10);
+  model.pointMasses.push_back({"tip", {0, 2}, uniform(random, 0.1, 1), 0.05, 2});
+  model.parameters.push_back(makePointMassParameter(0, "tip"));
+  model.finish();
+  return model;
+}
+
+template <class Example>
+EnergyKind kind(const std::string& name, int dimension, const Example& example) {
+  return {name + " " + std::to_string(dimension) + "D",
+          [example, dimension](std::mt19937& random) { return example(random, dimension); }};
+}
+
+}  // namespace
+
+const std::vector<EnergyKind>& energyKinds() {
+  static const std::vector<EnergyKind> kinds = [] {
+    std::vector<EnergyKind> list;
+    for (const int dimension : {2, 3}) {
+      list.push_back(kind("membrane", dimension, membraneExample));
+      list.push_back(kind("spring", dimension, springExample));
+      list.push_back(kind("anchored_spring", dimension, anchoredSpringExample));
+      list.push_back(kind("grounded_spring", dimension, groundedSpringExample));
+    }
+    return list;
+  }();
+  return kinds;
+}
+
+const std::vector<ParameterKind>& parameterKinds() {
+  static const std::vector<ParameterKind> kinds = {{"point_mass", pointMassExample}};
+  return kinds;
+}
+
+}  // namespace pliant::mechanics

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/mechanics/shell.hpp"
+
+namespace pliant::mechanics {
+
+/// Young's modulus and thickness above 0, Poisson's ratio above -1 and at most 0.5. Throws base::InputError.
+void requireElasticMaterial(const ShellMaterial& material);
+
+/// Finite positions, node indices in range, no triangle of zero area. Throws base::InputError naming the triangle.
+void requireTriangles(int dimension, const Vector& restPositions, const Triangles& triangles);
+
+/// Rest area of a triangle [m²].
+double triangleArea(int dimension, const Vector& restPositions, const std::array<int, 3>& triangle);
+
+}  // namespace pliant::mechanics
