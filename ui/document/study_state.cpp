@@ -1,0 +1,61 @@
+#include "ui/document/study_state.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace pliant::document {
+
+namespace {
+
+using scene::Json;
+
+constexpr std::array<std::string_view, 6> keysThatDoNotMatter = {
+    "schema_version", "title", "description", "thumbnail", "studies", "expected"};
+
+const Json* findStudy(const scene::Scene& scene, const std::string& name) {
+  const Json& all = scene.normalized();
+  const auto studies = all.find("studies");
+  if (studies == all.end()) return nullptr;
+  for (const Json& study : *studies)
+    if (study.value("name", "") == name) return &study;
+  return nullptr;
+}
+
+}  // namespace
+
+bool sameModel(const scene::Scene& a, const scene::Scene& b) {
+  if (&a.normalized() == &b.normalized()) return true;
+  const auto matters = [](const std::string& key) {
+    return std::find(keysThatDoNotMatter.begin(), keysThatDoNotMatter.end(), key) == keysThatDoNotMatter.end();
+  };
+  const auto covers = [&](const Json& from, const Json& other) {
+    return std::all_of(from.items().begin(), from.items().end(), [&](const auto& item) {
+      if (!matters(item.key())) return true;
+      const auto found = other.find(item.key());
+      return found != other.end() && *found == item.value();
+    });
+  };
+  return covers(a.normalized(), b.normalized()) && covers(b.normalized(), a.normalized());
+}
+
+bool sameStudy(const scene::Scene& a, const scene::Scene& b, const std::string& study) {
+  if (!sameModel(a, b)) return false;
+  const Json* first = findStudy(a, study);
+  const Json* second = findStudy(b, study);
+  return first && second && *first == *second;
+}
+
+QString toString(StudyStatus status) {
+  switch (status) {
+    case StudyStatus::none: return QStringLiteral("not run");
+    case StudyStatus::waiting: return QStringLiteral("waiting");
+    case StudyStatus::running: return QStringLiteral("running");
+    case StudyStatus::solved: return QStringLiteral("solved");
+    case StudyStatus::stale: return QStringLiteral("stale");
+    case StudyStatus::cancelled: return QStringLiteral("cancelled");
+    case StudyStatus::failed: return QStringLiteral("failed");
+  }
+  return {};
+}
+
+}  // namespace pliant::document
