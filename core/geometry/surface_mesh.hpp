@@ -36,7 +36,8 @@ SurfaceMesh readMesh(const std::filesystem::path& file, double scale);
 /// Writes STL, OBJ, PLY, glTF, glb or 3MF, chosen by the extension. Throws base::InputError.
 void writeMesh(const SurfaceMesh& mesh, const std::filesystem::path& file);
 
-/// Edges as node pairs (a < b, sorted), with the triangles on their sides (-1: none).
+/// Edges as node pairs (a < b, sorted), with the triangles on their sides (-1: none). Throws base::InputError if an edge
+/// has more than two.
 struct MeshEdge {
   std::array<int, 2> nodes;
   std::array<int, 2> triangles;

@@ -47,6 +47,14 @@ Model membraneExample(std::mt19937& random, int dimension) {
   return model;
 }
 
+Model hingeExample(std::mt19937& random, int) {
+  Triangles triangles;
+  Model model = randomPatch(random, 3, triangles);
+  model.energies.push_back(makeHingeBending(model.restPositions, triangles, randomMaterial(random)));
+  model.finish();
+  return model;
+}
+
 /// Nodes for springs, at places that are about 1 m apart.
 Model randomNodes(std::mt19937& random, int dimension, int count) {
   Model model;
@@ -106,6 +114,7 @@ const std::vector<EnergyKind>& energyKinds() {
       list.push_back(kind("anchored_spring", dimension, anchoredSpringExample));
       list.push_back(kind("grounded_spring", dimension, groundedSpringExample));
     }
+    list.push_back(kind("hinge_bending", 3, hingeExample));
     return list;
   }();
   return kinds;

@@ -16,18 +16,25 @@ struct ShellMaterial {
   double thickness = 0;  ///< [m]
 };
 
-/// Constant-strain triangles with a St. Venant-Kirchhoff material in plane stress, in 2 or 3 dimensions.
+/// Constant-strain triangles with a St. Venant-Kirchhoff material in plane stress, in 2 or 3 dimensions
+/// (MembraneElement). Throws base::InputError for a material or triangle that makes no sense.
 std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPositions, const Triangles& triangles,
                                            const ShellMaterial& material);
 
-/// Discrete shells (Grinspun et al. 2003): one dihedral-angle spring an interior edge, 3 dimensions; the stiffness follows
-/// from the plate's bending modulus. Null if there is no interior edge.
+/// Discrete shells (Grinspun et al. 2003) in 3 dimensions: one dihedral-angle spring an interior edge,
+///   E = Σ ½ D |e|²/(A₁ + A₂) (θ - θ₀)²,  D = Y h³ / (12 (1 - ν²)),
+/// with the rest length |e| of the edge, the rest areas of its two triangles, and the rest angle θ₀ (flat or curved).
+/// The factor ½ D makes a strip that is rolled up along its edges, and an equilateral mesh that is rolled up in any
+/// direction, store D κ²/2 an area (Seung & Nelson 1988 for the latter). A dihedral angle knows no Poisson effect of
+/// its own: bent to a saddle or a dome, an equilateral mesh behaves like a plate with ν = -1/3, a right-angled grid like
+/// one with ν = 0, whatever the material's ν; on irregular meshes the energy depends on the mesh's directions.
+/// Null if there is no interior edge. Throws base::InputError.
 std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, const Triangles& triangles,
                                                const ShellMaterial& material);
 
 enum class MassMatrix { lumped, consistent };
 
-/// Adds the triangles' mass (density * thickness * area) to `entries`, on all coordinates.
+/// Adds the triangles' mass (density * thickness * area) to `entries`, on all coordinates. Throws base::InputError.
 void addShellMass(int dimension, const Vector& restPositions, const Triangles& triangles, const ShellMaterial& material,
                   MassMatrix kind, std::vector<Eigen::Triplet<double>>& entries);
 
