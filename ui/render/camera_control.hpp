@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "ui/render/motion_view.hpp"
+#include "ui/render/primitives.hpp"
+
+namespace pliant::render {
+
+/// Moves the camera of a renderer. Pixels count from the top left of the renderer's window.
+class CameraControl {
+ public:
+  explicit CameraControl(vtkRenderer* renderer);
+
+  /// All points that may be seen; the camera is fitted to them and nothing of them is clipped.
+  void setReach(Points reach);
+  /// Leaves this many pixels free on the right when fitting.
+  void setRightMargin(double pixels) { rightMargin_ = pixels; }
+
+  void setAxisView(AxisView view);
+  void fit();
+  void orbit(double dx, double dy);
+  void pan(double dx, double dy);
+  void zoom(double factor, double x, double y);
+  std::optional<int> nearestPoint(const Points& points, double x, double y, double radius) const;
+
+ private:
+  Eigen::Matrix4d projection() const;
+  void updateClipping();
+
+  vtkRenderer* renderer_;
+  Points reach_;
+  double rightMargin_ = 0;
+};
+
+}  // namespace pliant::render

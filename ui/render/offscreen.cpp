@@ -1,0 +1,47 @@
+#include "ui/render/offscreen.hpp"
+
+#include <vtkRenderWindow.h>
+
+#include "core/base/error.hpp"
+#include "ui/render/offscreen_target.hpp"
+
+namespace pliant::render {
+namespace {
+
+constexpr int largestSide = 8192;  // pixels; what a framebuffer of every driver holds
+
+}  // namespace
+
+Image renderToImage(const std::shared_ptr<const mechanics::Model>& model,
+                    const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
+                    double tau, const PictureOptions& options) {
+  if (options.width < 1 || options.height < 1 || options.width > largestSide || options.height > largestSide)
+    throw base::InputError("", "the size of the picture is " + std::to_string(options.width) + "x" +
+                                   std::to_string(options.height) + "; each side has to lie between 1 and " +
+                                   std::to_string(largestSide) + " pixels");
+  OffscreenTarget target;
+  target.setSize(options.width, options.height);
+  Image image;
+  {
+    MotionView view;
+    view.attach(target.window());
+    view.setFineQuality(true);
+    view.setTheme(options.theme);
+    view.setModel(model);
+    if (problem) view.setMotion(problem, z);
+    view.setTau(tau);
+    view.setSelectedNode(options.selectedNode);
+    view.setCaption(options.caption);
+    view.setAxisView(options.view);
+    target.render(image);
+  }
+  return image;
+}
+
+void renderToPng(const std::shared_ptr<const mechanics::Model>& model,
+                 const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
+                 double tau, const PictureOptions& options, const std::filesystem::path& file) {
+  writePng(renderToImage(model, problem, z, tau, options), file);
+}
+
+}  // namespace pliant::render
