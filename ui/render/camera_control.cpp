@@ -3,6 +3,7 @@
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -11,7 +11,7 @@ namespace {
 class OffscreenWindow final : public OpenGLWindow {
  public:
   static OffscreenWindow* New();
-  vtkTypeMacro(OffscreenWindow, OpenGLWindow);
+  vtkTypeMacro(OffscreenWindow, OpenGLWindow)
 
   void setContext(OffscreenContext* context) { context_ = context; }
   bool IsCurrent() override { return context_ && context_->isCurrent(); }

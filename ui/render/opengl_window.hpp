@@ -9,7 +9,7 @@ namespace pliant::render {
 /// A VTK window that draws into an OpenGL context made by somebody else; derived classes say how that becomes current.
 class OpenGLWindow : public vtkGenericOpenGLRenderWindow {
  public:
-  vtkTypeMacro(OpenGLWindow, vtkGenericOpenGLRenderWindow);
+  vtkTypeMacro(OpenGLWindow, vtkGenericOpenGLRenderWindow)
 
   /// Debian's GLEW is built for GLX: under EGL and OSMesa it has loaded its functions when it complains that there is no GLX
   /// display, which is therefore accepted.
