@@ -4,13 +4,14 @@
 
 find_program(PLIANT_CCACHE ccache)
 if(PLIANT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PLIANT_CCACHE})
+  # With the base folder two checkouts share what they have in common; the rest is what precompiled headers need.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${PLIANT_CCACHE})
 endif()
 
 add_library(pliant_options INTERFACE)
 target_include_directories(pliant_options INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_definitions(pliant_options INTERFACE PLIANT_VERSION="${PROJECT_VERSION}"
-                           PLIANT_DATA_DIR="${PLIANT_DATA_DIR}")
+target_compile_definitions(pliant_options INTERFACE PLIANT_VERSION="${PROJECT_VERSION}")
 target_compile_options(pliant_options INTERFACE -ffp-contract=fast)
 if(PLIANT_NATIVE)
   target_compile_options(pliant_options INTERFACE -march=native)
@@ -19,6 +20,10 @@ if(PLIANT_SANITIZE)
   target_compile_options(pliant_options INTERFACE -fsanitize=${PLIANT_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(pliant_options INTERFACE -fsanitize=${PLIANT_SANITIZE})
 endif()
+
+# For the targets that read scenes/ or resources/ at run time.
+add_library(pliant_data_dir INTERFACE)
+target_compile_definitions(pliant_data_dir INTERFACE PLIANT_DATA_DIR="${PLIANT_DATA_DIR}")
 
 # Linked last and privately, so that warnings concern our own files alone.
 add_library(pliant_warnings INTERFACE)
