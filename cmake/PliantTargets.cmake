@@ -25,11 +25,10 @@ endif()
 add_library(pliant_data_dir INTERFACE)
 target_compile_definitions(pliant_data_dir INTERFACE PLIANT_DATA_DIR="${PLIANT_DATA_DIR}")
 
-# Linked last and privately, so that warnings concern our own files alone. -Wrestrict is wrong about std::string's
-# operator+ in GCC 12 (GCC bug 105651).
+# Linked last and privately, so that warnings concern our own files alone.
 add_library(pliant_warnings INTERFACE)
 target_compile_options(pliant_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                       -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wno-psabi -Wno-restrict
+                       -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wno-psabi
                        $<$<BOOL:${PLIANT_WARNINGS_AS_ERRORS}>:-Werror>)
 
 function(pliant_target_name out folder)

@@ -15,30 +15,62 @@ using mechanics::Model;
 using mechanics::SparseMatrix;
 using mechanics::Vector;
 
+/// What solving has cost so far: counts and wall-clock seconds of the parts that no method can do without.
+struct SolutionCost {
+  int evaluations = 0;  ///< of ∇E at all samples, with or without the Hessians
+  int factorizations = 0;
+  int solves = 0;  ///< with the factors, a right-hand side each
+  double evaluationSeconds = 0;
+  double factorizationSeconds = 0;
+  double solveSeconds = 0;
+
+  double seconds() const { return evaluationSeconds + factorizationSeconds + solveSeconds; }
+};
+
 /// The periodic motions of a model as roots of h(z, ω) = 0 (thesis 2.3.8).
 ///
 /// z holds the Fourier coefficients of the free coordinates' positions [m]: (2H+1) x nFree, column after column, so the
 /// coefficients of one coordinate stand together (constant, sin τ, cos τ, sin 2τ, ...). Prescribed nodes are
 /// eliminated: they enter with their exact samples. h is laid out alike and is in newtons:
 ///   h = (ω² d² ⊗ M + D_α ω d ⊗ M) z + (1 + D_β ω d) ĝ − f̂
-/// with d the derivative over τ and ĝ, f̂ the coefficients of ∇E and of the external force.
+/// with d the derivative over τ and ĝ, f̂ the coefficients of ∇E and of the external force. Mass and damping that couple
+/// free to prescribed coordinates are included.
+///
+/// Threads: `residual`, `linearize` and `parameterDerivative` use working memory of the object, so one thread at a time
+/// may call them; all other const members may be called from any thread meanwhile. A copy has working memory of its own.
 class HarmonicBalanceProblem {
  public:
   HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis);
+  HarmonicBalanceProblem(const HarmonicBalanceProblem& other);
+  HarmonicBalanceProblem(HarmonicBalanceProblem&&) noexcept;
+  HarmonicBalanceProblem& operator=(HarmonicBalanceProblem other) noexcept;
+  ~HarmonicBalanceProblem();
 
-  const Model& model() const { return *model_; }
-  std::shared_ptr<const Model> sharedModel() const { return model_; }
-  const math::HarmonicBasis& basis() const { return basis_; }
+  const Model& model() const;
+  std::shared_ptr<const Model> sharedModel() const;
+  const math::HarmonicBasis& basis() const;
+  const mechanics::ElasticAssembler& assembler() const;
   /// Number of unknowns, (2H+1) nFree.
   Eigen::Index size() const;
 
   /// The rest position as coefficients.
   Vector restCoefficients() const;
-  /// A force scale [N] that residual norms are divided by: the norm of the external and inertial forces of the drive.
+  /// The force scale [N] that residual norms are divided by: √(‖f̂‖² + (ω² a ‖m‖)²) with f̂ the coefficients of the loads
+  /// (gravity included), a the largest swing of a driven coordinate about its mean place and m the masses of the free
+  /// coordinates. 1 if there is neither a load nor a drive.
   double forceScale(double omega) const;
 
-  /// The same problem with drives and loads (all but gravity) scaled by `fraction`: for ramping the drive up.
+  /// Loads and drives are split into a steady part (gravity, the mean of the loads, each drive at that sample of its
+  /// motion that is nearest to the mean) and the rest, which is multiplied by `fraction`: for ramping the drive up.
   void setDriveFraction(double fraction);
+  double driveFraction() const { return driveFraction_; }
+
+  /// Positions of all coordinates with the free ones at rest and the prescribed ones at their steady place [m].
+  const Vector& steadyConfiguration() const;
+  /// The steady part of the external force on all coordinates [N].
+  const Vector& steadyForce() const;
+  /// Coefficients of a motionless configuration (size n * dimension).
+  Vector constantCoefficients(const Vector& configuration) const;
 
   /// h(z, ω), size().
   Vector residual(const Vector& z, double omega) const;
@@ -49,16 +81,26 @@ class HarmonicBalanceProblem {
 
   /// Positions of every coordinate at the N samples: N x (n * dimension) [m].
   Matrix trajectories(const Vector& z) const;
+  /// Positions of one node at the N samples: N x dimension [m].
+  Matrix nodeTrajectory(const Vector& z, int node) const;
   /// Positions of every coordinate at any τ, size n * dimension [m].
   Vector configurationAt(const Vector& z, double tau) const;
   /// The coefficients with another number of harmonics (cut or filled with zeros).
   static Vector changeHarmonics(const Vector& z, int fromHarmonics, int toHarmonics);
 
+  /// What this object's evaluations, and the solvers that use it, have cost.
+  SolutionCost& cost() const;
+
  private:
-  struct Cache;
-  std::shared_ptr<const Model> model_;
-  math::HarmonicBasis basis_;
-  std::shared_ptr<Cache> cache_;
+  struct Structure;
+  struct Workspace;
+
+  void evaluate(const Vector& z, bool withHessian) const;
+  Matrix inertialCoefficients(const Vector& z, const SparseMatrix& massToFree) const;
+
+  std::shared_ptr<const Structure> structure_;
+  std::unique_ptr<Workspace> workspace_;
+  double driveFraction_ = 1;
 };
 
 }  // namespace pliant::harmonic

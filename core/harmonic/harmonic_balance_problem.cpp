@@ -1,0 +1,308 @@
+#include "core/harmonic/harmonic_balance_problem.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/harmonic/harmonic_jacobian.hpp"
+
+namespace pliant::harmonic {
+
+namespace {
+
+/// The columns of the mass matrix that belong to free coordinates: n * dimension x nFree.
+SparseMatrix freeColumns(const Model& model, const SparseMatrix& matrix) {
+  SparseMatrix columns(matrix.rows(), model.dofs.freeCount());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int f = 0; f < model.dofs.freeCount(); ++f)
+    for (SparseMatrix::InnerIterator it(matrix, model.dofs.freeCoordinates[f]); it; ++it)
+      entries.emplace_back(it.row(), f, it.value());
+  columns.setFromTriplets(entries.begin(), entries.end());
+  return columns;
+}
+
+SparseMatrix freeRows(const Model& model, const SparseMatrix& columns) {
+  SparseMatrix square(model.dofs.freeCount(), columns.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int f = 0; f < columns.cols(); ++f)
+    for (SparseMatrix::InnerIterator it(columns, f); it; ++it)
+      if (const int row = model.dofs.freeIndex[it.row()]; row >= 0) entries.emplace_back(row, f, it.value());
+  square.setFromTriplets(entries.begin(), entries.end());
+  return square;
+}
+
+/// f̂ over the free coordinates with the oscillating part scaled.
+Matrix scaledLoads(const Matrix& coefficients, double fraction) {
+  Matrix scaled = fraction * coefficients;
+  scaled.row(0) = coefficients.row(0);
+  return scaled;
+}
+
+double sampleAngle(int sample, int samples) { return 2 * std::numbers::pi * sample / samples; }
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+/// What never changes; shared by copies.
+struct HarmonicBalanceProblem::Structure {
+  std::shared_ptr<const Model> model;
+  math::HarmonicBasis basis;
+  mechanics::ElasticAssembler assembler;
+  SparseMatrix massToFree;  ///< n * dimension x nFree
+  HarmonicJacobian jacobian;
+  Matrix synthesis;  ///< Γ, its first row repeated up to whole packets
+
+  Vector steadyConfiguration;
+  std::vector<int> drivenCoordinates;
+  Matrix swing;              ///< driven coordinates minus their steady place at the samples: padded N x driven
+  Matrix swingCoefficients;  ///< (2H+1) x driven
+  Vector steadyForce;
+  Matrix loadCoefficients;  ///< f̂ of the free coordinates with all of the drive, (2H+1) x nFree
+  double inertiaScale = 0;  ///< a ‖m‖ of forceScale [kg m]
+
+  Structure(std::shared_ptr<const Model> model_, const math::HarmonicBasis& basis_)
+      : model(std::move(model_)),
+        basis(basis_),
+        assembler(model),
+        massToFree(freeColumns(*model, model->massMatrix())),
+        jacobian(basis, assembler, freeRows(*model, massToFree)) {
+    const int padded = mechanics::ElasticAssembler::paddedRows(basis.samples());
+    synthesis.resize(padded, basis.size());
+    for (int i = 0; i < padded; ++i) synthesis.row(i) = basis.synthesis().row(i < basis.samples() ? i : 0);
+    sampleDrives(padded);
+    sampleLoads();
+  }
+
+  void sampleDrives(int padded) {
+    const int d = model->dimension;
+    steadyConfiguration = model->restPositions;
+    std::vector<Matrix> swings;
+    for (const auto& drive : model->drives) {
+      Matrix positions(padded, static_cast<Eigen::Index>(drive->nodes().size()) * d);
+      for (int i = 0; i < padded; ++i)
+        for (std::size_t n = 0; n < drive->nodes().size(); ++n) {
+          const Vector rest = model->restPositions.segment(drive->nodes()[n] * d, d);
+          const double tau = sampleAngle(i < basis.samples() ? i : 0, basis.samples());
+          positions.block(i, static_cast<Eigen::Index>(n) * d, 1, d) = drive->position(rest, tau).transpose();
+        }
+      const auto samples = positions.topRows(basis.samples());
+      const Eigen::RowVectorXd mean = samples.colwise().mean();
+      Eigen::Index nearest = 0;
+      (samples.rowwise() - mean).rowwise().squaredNorm().minCoeff(&nearest);
+      const Eigen::RowVectorXd steady = positions.row(nearest);
+      positions.rowwise() -= steady;
+      swings.push_back(positions);
+      for (std::size_t n = 0; n < drive->nodes().size(); ++n)
+        for (int axis = 0; axis < d; ++axis) {
+          drivenCoordinates.push_back(drive->nodes()[n] * d + axis);
+          steadyConfiguration[drivenCoordinates.back()] = steady[static_cast<Eigen::Index>(n) * d + axis];
+        }
+    }
+    swing.resize(padded, static_cast<Eigen::Index>(drivenCoordinates.size()));
+    Eigen::Index column = 0;
+    for (const Matrix& part : swings) {
+      swing.middleCols(column, part.cols()) = part;
+      column += part.cols();
+    }
+    swingCoefficients = basis.analysis() * swing.topRows(basis.samples());
+    double largest = 0;
+    for (Eigen::Index c = 0; c < swing.cols(); ++c)
+      largest = std::max(largest, (swing.col(c).array() - swingCoefficients(0, c)).abs().maxCoeff());
+    Vector masses(massToFree.cols());
+    for (Eigen::Index f = 0; f < massToFree.cols(); ++f)
+      masses[f] = massToFree.coeff(model->dofs.freeCoordinates[f], f);
+    inertiaScale = largest * masses.norm();
+  }
+
+  void sampleLoads() {
+    Matrix forces(basis.samples(), model->coordinateCount());
+    for (int i = 0; i < basis.samples(); ++i)
+      forces.row(i) = model->externalForce(sampleAngle(i, basis.samples())).transpose();
+    steadyForce = forces.colwise().mean();
+    loadCoefficients = basis.analysis() * forces(Eigen::all, model->dofs.freeCoordinates);
+  }
+};
+
+/// What an evaluation fills; one of each per problem object.
+struct HarmonicBalanceProblem::Workspace {
+  Matrix positions;  ///< padded N x coordinates
+  Matrix gradient;   ///< likewise
+  Matrix hessian;    ///< padded N x entries
+  Matrix hessianCoefficients;
+  SolutionCost cost;
+};
+
+HarmonicBalanceProblem::HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis)
+    : structure_(std::make_shared<Structure>(std::move(model), basis)), workspace_(std::make_unique<Workspace>()) {}
+
+HarmonicBalanceProblem::HarmonicBalanceProblem(const HarmonicBalanceProblem& other)
+    : structure_(other.structure_), workspace_(std::make_unique<Workspace>()), driveFraction_(other.driveFraction_) {}
+
+HarmonicBalanceProblem::HarmonicBalanceProblem(HarmonicBalanceProblem&&) noexcept = default;
+HarmonicBalanceProblem::~HarmonicBalanceProblem() = default;
+
+HarmonicBalanceProblem& HarmonicBalanceProblem::operator=(HarmonicBalanceProblem other) noexcept {
+  std::swap(structure_, other.structure_);
+  std::swap(workspace_, other.workspace_);
+  std::swap(driveFraction_, other.driveFraction_);
+  return *this;
+}
+
+const Model& HarmonicBalanceProblem::model() const { return *structure_->model; }
+std::shared_ptr<const Model> HarmonicBalanceProblem::sharedModel() const { return structure_->model; }
+const math::HarmonicBasis& HarmonicBalanceProblem::basis() const { return structure_->basis; }
+const mechanics::ElasticAssembler& HarmonicBalanceProblem::assembler() const { return structure_->assembler; }
+Eigen::Index HarmonicBalanceProblem::size() const { return structure_->jacobian.size(); }
+SolutionCost& HarmonicBalanceProblem::cost() const { return workspace_->cost; }
+
+Vector HarmonicBalanceProblem::restCoefficients() const { return constantCoefficients(model().restPositions); }
+
+double HarmonicBalanceProblem::forceScale(double omega) const {
+  const double inertia = omega * omega * structure_->inertiaScale;
+  const double scale = std::hypot(structure_->loadCoefficients.norm(), inertia);
+  return scale > 0 ? scale : 1.0;
+}
+
+void HarmonicBalanceProblem::setDriveFraction(double fraction) { driveFraction_ = fraction; }
+
+const Vector& HarmonicBalanceProblem::steadyConfiguration() const { return structure_->steadyConfiguration; }
+const Vector& HarmonicBalanceProblem::steadyForce() const { return structure_->steadyForce; }
+
+Vector HarmonicBalanceProblem::constantCoefficients(const Vector& configuration) const {
+  Matrix coefficients = Matrix::Zero(basis().size(), model().dofs.freeCount());
+  coefficients.row(0) = configuration(model().dofs.freeCoordinates).transpose();
+  return coefficients.reshaped();
+}
+
+void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian) const {
+  const Structure& s = *structure_;
+  Workspace& w = *workspace_;
+  const auto begin = std::chrono::steady_clock::now();
+  const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
+  w.positions.resize(s.synthesis.rows(), s.model->coordinateCount());
+  w.positions.rowwise() = s.steadyConfiguration.transpose();
+  for (std::size_t c = 0; c < s.drivenCoordinates.size(); ++c)
+    w.positions.col(s.drivenCoordinates[c]) += driveFraction_ * s.swing.col(static_cast<Eigen::Index>(c));
+  w.positions(Eigen::all, s.model->dofs.freeCoordinates) = s.synthesis * coefficients;
+  s.assembler.evaluate(w.positions, w.gradient, withHessian ? &w.hessian : nullptr);
+  ++w.cost.evaluations;
+  w.cost.evaluationSeconds += secondsSince(begin);
+}
+
+/// Coefficients of M x over the free coordinates, driven ones included in x: (2H+1) x nFree. `massToFree` is
+/// n * dimension x nFree.
+Matrix HarmonicBalanceProblem::inertialCoefficients(const Vector& z, const SparseMatrix& massToFree) const {
+  const Structure& s = *structure_;
+  Matrix all = Matrix::Zero(s.basis.size(), s.model->coordinateCount());
+  all(Eigen::all, s.model->dofs.freeCoordinates) =
+      Eigen::Map<const Matrix>(z.data(), s.basis.size(), s.model->dofs.freeCount());
+  all(Eigen::all, s.drivenCoordinates) = driveFraction_ * s.swingCoefficients;
+  return all * massToFree;
+}
+
+Vector HarmonicBalanceProblem::residual(const Vector& z, double omega) const {
+  Vector h;
+  linearize(z, omega, h, nullptr, nullptr);
+  return h;
+}
+
+void HarmonicBalanceProblem::linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian,
+                                       Vector* frequencyDerivative) const {
+  const Structure& s = *structure_;
+  Workspace& w = *workspace_;
+  const double massDamping = s.model->massDamping;
+  const double stiffnessDamping = s.model->stiffnessDamping;
+  evaluate(z, jacobian != nullptr);
+
+  const Matrix elastic =
+      s.basis.analysis() * w.gradient.topRows(s.basis.samples())(Eigen::all, s.model->dofs.freeCoordinates);
+  const Matrix inertial = inertialCoefficients(z, s.massToFree);
+  const Matrix elasticRate = s.basis.derivative(elastic);
+  const Matrix velocity = s.basis.derivative(inertial);
+  const Matrix acceleration = s.basis.secondDerivative(inertial);
+  h = (omega * omega * acceleration + massDamping * omega * velocity + elastic +
+       stiffnessDamping * omega * elasticRate - scaledLoads(s.loadCoefficients, driveFraction_))
+          .reshaped();
+  if (frequencyDerivative)
+    *frequencyDerivative =
+        (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped();
+  if (jacobian)
+    s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
+}
+
+Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega,
+                                                   const mechanics::DesignParameter& parameter) const {
+  const Structure& s = *structure_;
+  const Model& m = *s.model;
+  evaluate(z, false);
+  const Matrix& positions = workspace_->positions;
+  Matrix gradients(s.basis.samples(), m.dofs.freeCount());
+  Matrix loads(s.basis.samples(), m.dofs.freeCount());
+  for (int i = 0; i < s.basis.samples(); ++i) {
+    gradients.row(i) = parameter.gradientDerivative(m, positions.row(i).transpose())(m.dofs.freeCoordinates).transpose();
+    loads.row(i) = parameter.externalForceDerivative(m, sampleAngle(i, s.basis.samples()))(m.dofs.freeCoordinates)
+                       .transpose();
+  }
+  const Matrix elastic = s.basis.analysis() * gradients;
+  const Matrix inertial = inertialCoefficients(z, freeColumns(m, parameter.massDerivative(m)));
+  return (omega * omega * s.basis.secondDerivative(inertial) +
+          m.massDamping * omega * s.basis.derivative(inertial) + elastic +
+          m.stiffnessDamping * omega * s.basis.derivative(elastic) -
+          scaledLoads(s.basis.analysis() * loads, driveFraction_))
+      .reshaped();
+}
+
+Matrix HarmonicBalanceProblem::trajectories(const Vector& z) const {
+  const Structure& s = *structure_;
+  const int samples = s.basis.samples();
+  Matrix positions = s.steadyConfiguration.transpose().replicate(samples, 1);
+  positions(Eigen::all, s.drivenCoordinates) += driveFraction_ * s.swing.topRows(samples);
+  positions(Eigen::all, s.model->dofs.freeCoordinates) =
+      s.basis.synthesis() * Eigen::Map<const Matrix>(z.data(), s.basis.size(), s.model->dofs.freeCount());
+  return positions;
+}
+
+Matrix HarmonicBalanceProblem::nodeTrajectory(const Vector& z, int node) const {
+  const Structure& s = *structure_;
+  const int d = s.model->dimension;
+  Matrix positions(s.basis.samples(), d);
+  for (int axis = 0; axis < d; ++axis) {
+    const int coordinate = node * d + axis;
+    if (const int f = s.model->dofs.freeIndex[coordinate]; f >= 0) {
+      positions.col(axis) = s.basis.synthesis() * z.segment(static_cast<Eigen::Index>(f) * s.basis.size(), s.basis.size());
+    } else {
+      positions.col(axis).setConstant(s.steadyConfiguration[coordinate]);
+      const auto found = std::find(s.drivenCoordinates.begin(), s.drivenCoordinates.end(), coordinate);
+      if (found != s.drivenCoordinates.end())
+        positions.col(axis) += driveFraction_ * s.swing.col(found - s.drivenCoordinates.begin()).head(s.basis.samples());
+    }
+  }
+  return positions;
+}
+
+Vector HarmonicBalanceProblem::configurationAt(const Vector& z, double tau) const {
+  const Structure& s = *structure_;
+  const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
+  const Vector free = coefficients.transpose() * s.basis.valuesAt(tau);
+  Vector positions = s.model->configuration(free, tau);
+  for (const int coordinate : s.drivenCoordinates)
+    positions[coordinate] = s.steadyConfiguration[coordinate] +
+                            driveFraction_ * (positions[coordinate] - s.steadyConfiguration[coordinate]);
+  return positions;
+}
+
+Vector HarmonicBalanceProblem::changeHarmonics(const Vector& z, int fromHarmonics, int toHarmonics) {
+  const int from = 2 * fromHarmonics + 1;
+  const int to = 2 * toHarmonics + 1;
+  const Eigen::Map<const Matrix> coefficients(z.data(), from, z.size() / from);
+  Matrix changed = Matrix::Zero(to, coefficients.cols());
+  const int kept = std::min(from, to);
+  changed.topRows(kept) = coefficients.topRows(kept);
+  return changed.reshaped();
+}
+
+}  // namespace pliant::harmonic

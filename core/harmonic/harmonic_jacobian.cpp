@@ -1,0 +1,199 @@
+#include "core/harmonic/harmonic_jacobian.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/math/parallel.hpp"
+
+namespace pliant::harmonic {
+
+namespace {
+
+/// Columns of coordinates that one task assembles.
+constexpr int columnsPerTask = 16;
+
+Matrix coefficientTransform(int harmonics, int samples) {
+  Matrix transform(4 * harmonics + 1, samples);
+  const double step = 2 * std::numbers::pi / samples;
+  for (int i = 0; i < samples; ++i) {
+    transform(0, i) = 1.0 / samples;
+    for (int m = 1; m <= 2 * harmonics; ++m) {
+      const double phase = step * static_cast<double>(static_cast<long long>(m) * i % samples);
+      transform(2 * m - 1, i) = std::sin(phase) / samples;
+      transform(2 * m, i) = std::cos(phase) / samples;
+    }
+  }
+  return transform;
+}
+
+struct Pair {
+  int row;
+  int column;
+  int entry;
+  double mass;
+};
+
+/// Union of the Hessian's and the mass matrix's lower triangles, sorted by column, then row.
+std::vector<Pair> collectPairs(const mechanics::ElasticAssembler& assembler, const SparseMatrix& mass) {
+  std::vector<Pair> pairs;
+  for (int entry = 0; entry < assembler.entryCount(); ++entry)
+    pairs.push_back({assembler.rows()[entry], assembler.columns()[entry], entry, 0});
+  for (int column = 0; column < mass.outerSize(); ++column) {
+    pairs.push_back({column, column, -1, 0});  // every coordinate has a diagonal block
+    for (SparseMatrix::InnerIterator it(mass, column); it; ++it)
+      if (it.row() >= column) pairs.push_back({static_cast<int>(it.row()), column, -1, it.value()});
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.column, a.row, b.entry) < std::tie(b.column, b.row, a.entry);
+  });
+  std::vector<Pair> merged;
+  for (const Pair& pair : pairs) {
+    if (merged.empty() || merged.back().row != pair.row || merged.back().column != pair.column) {
+      merged.push_back(pair);
+    } else {
+      merged.back().mass += pair.mass;
+    }
+  }
+  return merged;
+}
+
+}  // namespace
+
+HarmonicJacobian::HarmonicJacobian(const math::HarmonicBasis& basis, const mechanics::ElasticAssembler& assembler,
+                                   const SparseMatrix& mass)
+    : harmonics_(basis.harmonics()), transform_(coefficientTransform(basis.harmonics(), basis.samples())) {
+  const int count = static_cast<int>(mass.cols());
+  const int width = basis.size();
+  const std::vector<Pair> pairs = collectPairs(assembler, mass);
+
+  std::vector<std::vector<int>> neighbors(count);
+  for (const Pair& pair : pairs) {
+    neighbors[pair.column].push_back(pair.row);
+    if (pair.row != pair.column) neighbors[pair.row].push_back(pair.column);
+  }
+  std::vector<long> starts(count + 1, 0);
+  for (int c = 0; c < count; ++c) {
+    std::sort(neighbors[c].begin(), neighbors[c].end());
+    starts[c + 1] = starts[c] + static_cast<long>(neighbors[c].size()) * width * width;
+  }
+
+  outerStarts_.resize(static_cast<Eigen::Index>(count) * width + 1);
+  innerIndices_.resize(starts[count]);
+  for (int c = 0; c < count; ++c) {
+    for (int column = 0; column < width; ++column) {
+      long at = starts[c] + static_cast<long>(column) * width * static_cast<long>(neighbors[c].size());
+      outerStarts_[static_cast<Eigen::Index>(c) * width + column] = static_cast<int>(at);
+      for (const int r : neighbors[c])
+        for (int row = 0; row < width; ++row) innerIndices_[at++] = r * width + row;
+    }
+  }
+  outerStarts_[static_cast<Eigen::Index>(count) * width] = static_cast<int>(starts[count]);
+
+  const auto position = [&](int row, int column) {
+    const auto& list = neighbors[column];
+    const long index = std::lower_bound(list.begin(), list.end(), row) - list.begin();
+    return starts[column] + index * width;
+  };
+  const auto stride = [&](int column) { return static_cast<long>(neighbors[column].size()) * width; };
+  columnBlocks_.assign(count + 1, 0);
+  columnEntries_.assign(count + 1, 0);
+  for (const Pair& pair : pairs) {
+    blocks_.push_back({pair.entry, pair.mass, position(pair.row, pair.column), stride(pair.column),
+                       position(pair.column, pair.row), stride(pair.row), pair.row == pair.column});
+    ++columnBlocks_[pair.column + 1];
+    if (pair.entry >= 0) ++columnEntries_[pair.column + 1];
+  }
+  for (int c = 0; c < count; ++c) {
+    columnBlocks_[c + 1] += columnBlocks_[c];
+    columnEntries_[c + 1] += columnEntries_[c];
+  }
+}
+
+void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double massDamping, double stiffnessDamping,
+                                Matrix& coefficients, SparseMatrix& jacobian) const {
+  if (jacobian.rows() != size() || jacobian.cols() != size() || jacobian.nonZeros() != entryCount() ||
+      !std::equal(outerStarts_.begin(), outerStarts_.end(), jacobian.outerIndexPtr())) {
+    jacobian.resize(size(), size());
+    jacobian.resizeNonZeros(entryCount());
+    std::copy(outerStarts_.begin(), outerStarts_.end(), jacobian.outerIndexPtr());
+    std::copy(innerIndices_.begin(), innerIndices_.end(), jacobian.innerIndexPtr());
+  }
+  coefficients.resize(transform_.rows(), stiffness.cols());
+  const int columns = static_cast<int>(columnBlocks_.size()) - 1;
+  double* values = jacobian.valuePtr();
+  math::parallelFor((columns + columnsPerTask - 1) / columnsPerTask, [&](int task) {
+    const int begin = task * columnsPerTask;
+    const int end = std::min(begin + columnsPerTask, columns);
+    const int firstEntry = columnEntries_[begin];
+    const int entries = columnEntries_[end] - firstEntry;
+    coefficients.middleCols(firstEntry, entries).noalias() =
+        transform_ * stiffness.block(0, firstEntry, transform_.cols(), entries);
+    std::vector<double> scratch(4 * (4 * harmonics_ + 1) + 2 * harmonics_ + 2);
+    double* weight = scratch.data() + 4 * (4 * harmonics_ + 1);
+    for (int i = 2; i < 2 * harmonics_ + 2; ++i) weight[i] = stiffnessDamping * omega * (i / 2);
+    for (int b = columnBlocks_[begin]; b < columnBlocks_[end]; ++b)
+      writeBlock(blocks_[b], coefficients, omega, massDamping, scratch.data(), values);
+  });
+}
+
+void HarmonicJacobian::writeBlock(const Block& block, const Matrix& coefficients, double omega, double massDamping,
+                                  double* scratch, double* values) const {
+  // The rows of a block are the pairs (sin jτ, cos jτ), j = 1 .. H, below the constant. With U[m] = (P[m], -Q[m]) and
+  // V[m] = (Q[m], P[m]) side by side, the pairs of the column sin kτ are U[j-k] - U[j+k] and d times them V[j-k] - V[j+k];
+  // those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m.
+  const int h = harmonics_;
+  const int width = 2 * h + 1;
+  double* u = scratch + 4 * h;                          // u[2m], u[2m+1] = U[m] for |m| <= 2H
+  double* v = u + 2 * (4 * h + 1);                      // likewise V
+  const double* weight = scratch + 4 * (4 * h + 1);     // weight[2j], weight[2j+1] = D_β ω j
+
+  if (block.entry >= 0) {
+    const double* k = coefficients.data() + coefficients.rows() * block.entry;
+    u[0] = v[1] = k[0];
+    u[1] = v[0] = 0;
+    for (int m = 1; m <= 2 * h; ++m) {
+      const double q = k[2 * m - 1];
+      const double p = k[2 * m];
+      u[2 * m] = u[-2 * m] = p;
+      u[2 * m + 1] = -q;
+      u[-2 * m + 1] = q;
+      v[2 * m] = q;
+      v[-2 * m] = -q;
+      v[2 * m + 1] = v[-2 * m + 1] = p;
+    }
+  } else {
+    std::fill_n(scratch, 4 * (4 * h + 1), 0.0);
+  }
+
+  double* target = values + block.lower;
+  target[0] = u[0];
+  for (int i = 2; i < 2 * h + 2; ++i) target[i - 1] = 2 * (v[i] - weight[i] * u[i]);
+  for (int k = 1; k <= h; ++k) {
+    const double* um = u - 2 * k;
+    const double* up = u + 2 * k;
+    const double* vm = v - 2 * k;
+    const double* vp = v + 2 * k;
+    double* sine = target + (2 * k - 1) * block.lowerStride;
+    double* cosine = target + 2 * k * block.lowerStride;
+    sine[0] = v[2 * k];
+    cosine[0] = v[2 * k + 1];
+    for (int i = 2; i < 2 * h + 2; ++i) {
+      sine[i - 1] = (um[i] - up[i]) + weight[i] * (vm[i] - vp[i]);
+      cosine[i - 1] = (vm[i] + vp[i]) - weight[i] * (um[i] + up[i]);
+    }
+    const double inertia = -(k * omega) * (k * omega) * block.mass;
+    const double friction = k * omega * massDamping * block.mass;
+    sine[2 * k - 1] += inertia;
+    sine[2 * k] += friction;
+    cosine[2 * k - 1] -= friction;
+    cosine[2 * k] += inertia;
+  }
+  if (!block.diagonal) {
+    for (int column = 0; column < width; ++column)
+      std::copy_n(values + block.lower + column * block.lowerStride, width,
+                  values + block.upper + column * block.upperStride);
+  }
+}
+
+}  // namespace pliant::harmonic

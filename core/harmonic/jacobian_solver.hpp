@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "core/harmonic/harmonic_balance_problem.hpp"
+
+namespace pliant::harmonic {
+
+/// ∂h/∂z of a problem and its factors, kept together so that pattern and symbolic analysis are made once. Counts what it
+/// does in `HarmonicBalanceProblem::cost`.
+class JacobianSolver {
+ public:
+  explicit JacobianSolver(const HarmonicBalanceProblem& problem) : problem_(problem) {}
+
+  /// Evaluates h, ∂h/∂z and (if not null) ∂h/∂ω.
+  void linearize(const Vector& z, double omega, Vector& h, Vector* frequencyDerivative);
+  /// Factorises ∂h/∂z as last linearised; false if it is singular.
+  bool factorize();
+  /// Solves with the factors last computed, which may belong to an earlier linearisation.
+  Matrix solve(const Matrix& b) const;
+  /// ∂h/∂z, last linearised, times v.
+  Vector multiply(const Vector& v) const { return jacobian_ * v; }
+
+  const SparseMatrix& jacobian() const { return jacobian_; }
+  /// The factors; a later factorize() makes new ones if somebody still holds them.
+  std::shared_ptr<const math::SparseFactorization> factorization() const { return factorization_; }
+
+ private:
+  const HarmonicBalanceProblem& problem_;
+  SparseMatrix jacobian_;
+  std::shared_ptr<math::SparseFactorization> factorization_;
+};
+
+}  // namespace pliant::harmonic

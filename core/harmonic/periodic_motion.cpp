@@ -1,0 +1,215 @@
+#include "core/harmonic/periodic_motion.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/harmonic/jacobian_solver.hpp"
+#include "core/solvers/continuation_solver.hpp"
+#include "core/solvers/newton_solver.hpp"
+#include "core/solvers/static_equilibrium.hpp"
+
+namespace pliant::harmonic {
+
+namespace {
+
+using base::TerminationType;
+
+class FixedFrequency final : public solvers::NonlinearSystem {
+ public:
+  FixedFrequency(const HarmonicBalanceProblem& problem, JacobianSolver& solver, double omega)
+      : problem_(problem), solver_(solver), omega_(omega) {}
+
+  Vector residual(const Vector& z) override { return problem_.residual(z, omega_); }
+  bool linearize(const Vector& z, Vector& h) override {
+    solver_.linearize(z, omega_, h, nullptr);
+    return solver_.factorize();
+  }
+  Vector solve(const Vector& b) override { return solver_.solve(b); }
+
+ private:
+  const HarmonicBalanceProblem& problem_;
+  JacobianSolver& solver_;
+  double omega_;
+};
+
+/// Motions at one frequency as a branch in the fraction of the drive.
+class DriveRamp final : public solvers::ContinuationProblem {
+ public:
+  DriveRamp(HarmonicBalanceProblem& problem, JacobianSolver& solver, double omega)
+      : problem_(problem), solver_(solver), omega_(omega) {}
+  ~DriveRamp() override { problem_.setDriveFraction(1); }
+
+  Vector residual(const Vector& z, double fraction) override {
+    problem_.setDriveFraction(fraction);
+    return problem_.residual(z, omega_);
+  }
+  double residualScale(double) override { return problem_.forceScale(omega_); }
+  Vector linearize(const Vector& z, double fraction) override {
+    const Vector derivative = driveDerivative(z, fraction);
+    problem_.setDriveFraction(fraction);
+    Vector h;
+    solver_.linearize(z, omega_, h, nullptr);
+    return derivative;
+  }
+  Vector multiply(const Vector& v) override { return solver_.multiply(v); }
+  bool factorize() override { return solver_.factorize(); }
+  Vector solve(const Vector& b) override { return solver_.solve(b); }
+
+  /// ∂h/∂fraction. Only predictions and rates of convergence depend on it, so a central difference will do.
+  Vector driveDerivative(const Vector& z, double fraction) {
+    constexpr double step = 1e-5;
+    return (residual(z, fraction + step) - residual(z, fraction - step)) / (2 * step);
+  }
+
+ private:
+  HarmonicBalanceProblem& problem_;
+  JacobianSolver& solver_;
+  double omega_;
+};
+
+/// Finds one motion; keeps what its stages share.
+class MotionSearch {
+ public:
+  MotionSearch(HarmonicBalanceProblem& problem, double omega, const PeriodicMotionOptions& options,
+               base::ExecutionContext& context)
+      : problem_(problem), solver_(problem), omega_(omega), options_(options), context_(context) {}
+
+  PeriodicMotion run(const Vector& start) {
+    const auto begin = std::chrono::steady_clock::now();
+    motion_.omega = omega_;
+    bool done = false;
+    if (start.size() > 0) done = newtonFrom(start);
+    if (!done && findSteadyState()) done = newtonFrom(linearResponse()) || rampDrive();
+    motion_.factorization = solver_.factorization();
+    motion_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(motion_);
+  }
+
+ private:
+  /// True if there is nothing left to try: converged or cancelled.
+  bool newtonFrom(const Vector& start) {
+    FixedFrequency system(problem_, solver_, omega_);
+    solvers::NewtonOptions newton;
+    newton.tolerance = options_.tolerance;
+    newton.residualScale = problem_.forceScale(omega_);
+    newton.stepTolerance = options_.stepTolerance;
+    newton.stepScale = start.norm();
+    newton.maximumIterations = options_.maximumIterations;
+    motion_.z = start;
+    motion_.report = solvers::solveNewton(system, motion_.z, newton, context_);
+    return motion_.report.converged() || motion_.report.termination == TerminationType::cancelled;
+  }
+
+  bool findSteadyState() {
+    const mechanics::ElasticAssembler& assembler = problem_.assembler();
+    const solvers::StaticEquilibrium equilibrium = solvers::solveStaticEquilibrium(
+        problem_.model(), assembler, problem_.steadyConfiguration(), problem_.steadyForce(), {}, context_);
+    steady_ = problem_.constantCoefficients(equilibrium.positions);
+    if (equilibrium.report.converged()) return true;
+    motion_.z = steady_;
+    motion_.report = equilibrium.report;
+    return false;
+  }
+
+  /// The motion that the drive would cause if the model answered linearly about its steady state.
+  Vector linearResponse() {
+    DriveRamp ramp(problem_, solver_, omega_);
+    const Vector derivative = ramp.linearize(steady_, 0) /* ∂h/∂fraction */;
+    if (!solver_.factorize()) return steady_;
+    const Vector response = solver_.solve(derivative);
+    return response.allFinite() ? Vector(steady_ - response) : steady_;
+  }
+
+  bool rampDrive() {
+    DriveRamp ramp(problem_, solver_, omega_);
+    solvers::ContinuationOptions continuation;
+    continuation.lower = -1;  // only the end counts: the branch may turn back on its way
+    continuation.stateScale = std::max((linearResponse() - steady_).norm(), 1e-9 * steady_.norm());
+    continuation.initialStep = 0.25;
+    continuation.minimumStep = 1e-5;
+    continuation.targetAngle = 0.4;
+    continuation.maximumAngle = 1.2;
+    continuation.tolerance = options_.tolerance;
+    continuation.stepTolerance = options_.stepTolerance * steady_.norm() / continuation.stateScale;
+    continuation.maximumPoints = options_.maximumRampSteps;
+    solvers::ContinuationSolver solver(ramp, continuation);
+    solvers::BranchPoint last;
+    motion_.report = solver.trace(steady_, 0, context_,
+                                  [&](const solvers::BranchPoint& point, solvers::BranchEvent, int) { last = point; });
+    if (last.x.size() > 0) motion_.z = last.x;
+    if (motion_.report.termination == TerminationType::cancelled) return true;
+    if (motion_.report.converged() && last.parameter == 1) return true;
+    motion_.report.termination = motion_.report.converged() ? TerminationType::failed : motion_.report.termination;
+    motion_.report.message = "No periodic motion was found, neither by Newton's method nor by ramping the drive up.";
+    return false;
+  }
+
+  HarmonicBalanceProblem& problem_;
+  JacobianSolver solver_;
+  double omega_;
+  const PeriodicMotionOptions& options_;
+  base::ExecutionContext& context_;
+  Vector steady_;
+  PeriodicMotion motion_;
+};
+
+/// Largest distance between the trajectories of a node in two motions, relative to the path's length.
+double relativeTrajectoryChange(const HarmonicBalanceProblem& coarse, const Vector& coarseZ,
+                                const HarmonicBalanceProblem& fine, const Vector& fineZ) {
+  const Model& model = fine.model();
+  std::vector<int> nodes;
+  for (const mechanics::Probe& probe : model.probes) nodes.push_back(probe.node);
+  if (nodes.empty())
+    for (int node = 0; node < model.nodeCount(); ++node) nodes.push_back(node);
+  const Vector padded =
+      HarmonicBalanceProblem::changeHarmonics(coarseZ, coarse.basis().harmonics(), fine.basis().harmonics());
+  double largestChange = 0;
+  double longestPath = 0;
+  double worst = 0;
+  for (const int node : nodes) {
+    const Matrix path = fine.nodeTrajectory(fineZ, node);
+    const double change = (path - fine.nodeTrajectory(padded, node)).rowwise().norm().maxCoeff();
+    double length = 0;
+    for (Eigen::Index i = 0; i < path.rows(); ++i) length += (path.row((i + 1) % path.rows()) - path.row(i)).norm();
+    largestChange = std::max(largestChange, change);
+    longestPath = std::max(longestPath, length);
+    if (length > 0) worst = std::max(worst, change / length);
+  }
+  // Nodes that hardly move count against the longest path where nobody asked for them by name.
+  return model.probes.empty() ? (longestPath > 0 ? largestChange / longestPath : 0.0) : worst;
+}
+
+}  // namespace
+
+PeriodicMotion solvePeriodicMotion(HarmonicBalanceProblem& problem, double omega, const PeriodicMotionOptions& options,
+                                   base::ExecutionContext& context, const Vector& start) {
+  return MotionSearch(problem, omega, options, context).run(start);
+}
+
+std::pair<HarmonicBalanceProblem, PeriodicMotion> solveWithAdaptiveHarmonics(
+    HarmonicBalanceProblem problem, double omega, double relativeChange, int maximumHarmonics,
+    const PeriodicMotionOptions& options, base::ExecutionContext& context) {
+  PeriodicMotion motion = solvePeriodicMotion(problem, omega, options, context);
+  while (motion.report.converged()) {
+    const int harmonics = problem.basis().harmonics();
+    if (harmonics >= maximumHarmonics) {
+      motion.report.termination = TerminationType::iterationLimit;
+      motion.report.message = "The trajectories still change with " + std::to_string(harmonics) + " harmonics.";
+      break;
+    }
+    const int more = std::min(harmonics + 2, maximumHarmonics);
+    HarmonicBalanceProblem finer(problem.sharedModel(),
+                                 {more, std::max(problem.basis().samples(), 4 * more + 1)});
+    PeriodicMotion finerMotion = solvePeriodicMotion(
+        finer, omega, options, context, HarmonicBalanceProblem::changeHarmonics(motion.z, harmonics, more));
+    const bool settled = finerMotion.report.converged() &&
+                         relativeTrajectoryChange(problem, motion.z, finer, finerMotion.z) <= relativeChange;
+    problem = std::move(finer);
+    motion = std::move(finerMotion);
+    if (settled) break;
+  }
+  return {std::move(problem), std::move(motion)};
+}
+
+}  // namespace pliant::harmonic

@@ -1,0 +1,347 @@
+#include "core/solvers/continuation_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace pliant::solvers {
+
+namespace {
+
+constexpr int maximumCorrections = 20;
+/// Corrections that shrink less than this from one to the next are not worth going on with: new factors cost about as
+/// much as ten corrections.
+constexpr double slowContraction = 0.3;
+constexpr int maximumLocations = 40;
+
+/// Value and derivative by u of the cubic that has values y0, y1 and derivatives t0, t1 at u = 0 and u = length.
+struct Hermite {
+  const Eigen::VectorXd& y0;
+  const Eigen::VectorXd& t0;
+  const Eigen::VectorXd& y1;
+  const Eigen::VectorXd& t1;
+  double length;
+
+  Eigen::VectorXd value(double u) const {
+    const double r = u / length;
+    return (1 + r * r * (2 * r - 3)) * y0 + r * (1 - r) * (1 - r) * length * t0 + r * r * (3 - 2 * r) * y1 +
+           r * r * (r - 1) * length * t1;
+  }
+  Eigen::VectorXd derivative(double u) const {
+    const double r = u / length;
+    return 6 * r * (1 - r) / length * (y1 - y0) + (1 - r) * (1 - 3 * r) * t0 + r * (3 * r - 2) * t1;
+  }
+};
+
+double angleBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return 2 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
+}
+
+/// Length of the arc between two points whose tangents differ by `angle`.
+double arcBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double angle) {
+  const double half = 0.5 * angle;
+  return (a - b).norm() * (half > 1e-4 ? half / std::sin(half) : 1.0);
+}
+
+}  // namespace
+
+ContinuationSolver::ContinuationSolver(ContinuationProblem& problem, const ContinuationOptions& options)
+    : problem_(problem), options_(options) {}
+
+bool ContinuationSolver::inRange(const Point& point) const {
+  const double parameter = point.parameter() * options_.parameterScale;
+  return parameter >= options_.lower && parameter <= options_.upper;
+}
+
+BranchPoint ContinuationSolver::unscaled(const Point& point) const {
+  const Eigen::Index n = point.y.size() - 1;
+  BranchPoint result;
+  result.x = options_.stateScale * point.y.head(n);
+  result.parameter = options_.parameterScale * point.y[n];
+  if (point.tangent.size() > 0) {
+    result.direction = options_.stateScale * point.tangent.head(n);
+    result.parameterDirection = options_.parameterScale * point.tangent[n];
+  }
+  result.arcLength = point.arcLength;
+  result.residual = point.residual;
+  result.iterations = point.iterations;
+  return result;
+}
+
+/// Factors of ∂h/∂x where last linearised.
+bool ContinuationSolver::refactorize() {
+  factorized_ = problem_.factorize();
+  if (factorized_)
+    parameterColumn_ = problem_.solve(parameterDerivative_) * (options_.parameterScale / options_.stateScale);
+  return factorized_;
+}
+
+/// The solution (in scaled variables) of [∂h/∂x, ∂h/∂λ; normalᵀ] dy = [f; g] with the factors that there are.
+ContinuationSolver::Vector ContinuationSolver::solveBordered(const Vector& f, double g, const Vector& normal) {
+  const Eigen::Index n = f.size();
+  const Vector w = problem_.solve(f) / options_.stateScale;
+  Vector dy(n + 1);
+  dy[n] = (g - normal.head(n).dot(w)) / (normal[n] - normal.head(n).dot(parameterColumn_));
+  dy.head(n) = w - dy[n] * parameterColumn_;
+  return dy;
+}
+
+/// Moves `point.y` within the plane normal to `normal` until h vanishes.
+ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vector& normal) {
+  const Eigen::Index n = point.y.size() - 1;
+  double previous = 0;
+  bool slow = false;
+  bool fresh = false;  // the factors belong to an iterate of this very call
+  bool settled = false;
+  for (point.iterations = 0;; ++point.iterations) {
+    if (context_->cancelRequested()) return Status::cancelled;
+    const Vector x = options_.stateScale * point.y.head(n);
+    const double parameter = options_.parameterScale * point.y[n];
+    const Vector h = problem_.residual(x, parameter);
+    point.residual = h.norm() / problem_.residualScale(parameter);
+    if (!std::isfinite(point.residual)) return Status::failed;
+    if (point.residual <= options_.tolerance || settled) return Status::converged;
+    if (point.iterations == maximumCorrections) return Status::failed;
+    if (!factorized_ || slow) {
+      parameterDerivative_ = problem_.linearize(x, parameter);
+      if (!refactorize()) return Status::failed;
+      fresh = true;
+      slow = false;
+      previous = 0;
+    }
+    const Vector correction = solveBordered(-h, 0, normal);
+    const double size = correction.norm();
+    if (!std::isfinite(size)) return Status::failed;
+    if (previous > 0 && size > previous) {  // diverging: drop the correction and try again with new factors, once
+      if (fresh) return Status::failed;
+      slow = true;
+      continue;
+    }
+    point.y += correction;
+    slow = previous > 0 && size > slowContraction * previous;
+    previous = size;
+    settled = size <= options_.stepTolerance;
+  }
+}
+
+/// The unit tangent at a solution, from the exact Jacobian there, by refinement with the factors that there are.
+ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const Vector& normal) {
+  const Eigen::Index n = point.y.size() - 1;
+  parameterDerivative_ = problem_.linearize(options_.stateScale * point.y.head(n), options_.parameterScale * point.y[n]);
+  if (!factorized_ && !refactorize()) return Status::failed;
+  Vector tangent = normal;
+  double previous = 0;
+  bool fresh = false;
+  for (int iteration = 0; iteration < maximumCorrections; ++iteration) {
+    if (context_->cancelRequested()) return Status::cancelled;
+    const Vector defect = -(problem_.multiply(options_.stateScale * tangent.head(n)) +
+                            options_.parameterScale * tangent[n] * parameterDerivative_);
+    const Vector correction = solveBordered(defect, 1 - normal.dot(tangent), normal);
+    const double size = correction.norm();
+    if (!std::isfinite(size)) return Status::failed;
+    if (previous > 0 && size > slowContraction * previous && !fresh) {
+      if (!refactorize()) return Status::failed;
+      fresh = true;
+      previous = 0;
+      continue;
+    }
+    tangent += correction;
+    if (size <= 1e-9 * tangent.norm()) break;
+    previous = size;
+  }
+  point.tangent = tangent.normalized();
+  return point.tangent.allFinite() ? Status::converged : Status::failed;
+}
+
+/// A solution with its tangent and monitors, from a prediction.
+ContinuationSolver::Status ContinuationSolver::solveAt(Point& point, const Vector& predicted, const Vector& normal) {
+  point.y = predicted;
+  Status status = correct(point, normal);
+  if (status == Status::converged) status = findTangent(point, normal);
+  if (status == Status::converged) point.monitors = problem_.monitors(unscaled(point));
+  return status;
+}
+
+ContinuationSolver::Status ContinuationSolver::advance(const Point* before, const Point& from, double step, Point& to,
+                                                       double& angle) {
+  Vector predicted = from.y + step * from.tangent;
+  Vector normal = from.tangent;
+  if (before) {
+    const double length = from.arcLength - before->arcLength;
+    const Hermite cubic{before->y, before->tangent, from.y, from.tangent, length};
+    predicted = cubic.value(length + step);
+    normal = cubic.derivative(length + step).normalized();
+  }
+  const Status status = solveAt(to, predicted, normal);
+  if (status != Status::converged) return status;
+  angle = angleBetween(from.tangent, to.tangent);
+  to.arcLength = from.arcLength + arcBetween(from.y, to.y, angle);
+  // A jump to another branch shows as a sharp turn, or as a correction of the size of the step.
+  const bool near = (to.y - predicted).norm() <= 0.5 * step;
+  return near && angle <= options_.maximumAngle ? Status::converged : Status::failed;
+}
+
+/// The root of `function` between two points where it has different signs (Illinois variant of the false position).
+ContinuationSolver::Status ContinuationSolver::locate(const Point& from, const Point& to,
+                                                      const std::function<double(const Point&)>& function,
+                                                      Point& root) {
+  Point a = from;
+  Point b = to;
+  double fa = function(a);
+  double fb = function(b);
+  const double whole = b.arcLength - a.arcLength;
+  int side = 0;
+  double lastPosition = -1;
+  for (int iteration = 0; iteration < maximumLocations; ++iteration) {
+    const double length = b.arcLength - a.arcLength;
+    const double u = length * std::clamp(fa / (fa - fb), 0.01, 0.99);
+    const Hermite cubic{a.y, a.tangent, b.y, b.tangent, length};
+    const double position = a.arcLength + u;
+    root = Point{};
+    const Status status = solveAt(root, cubic.value(u), cubic.derivative(u).normalized());
+    if (status != Status::converged) return status;
+    root.arcLength = position;
+    const double f = function(root);
+    const double parameterRate = std::abs(root.tangent[root.tangent.size() - 1]);
+    const double moved = std::min(std::abs(position - lastPosition), length);
+    if (f == 0 || (moved <= 1e-4 * whole &&
+                   moved * parameterRate <= 0.1 * options_.locationTolerance * std::abs(root.parameter())))
+      return Status::converged;
+    lastPosition = position;
+    if ((f > 0) == (fa > 0)) {
+      a = root;
+      fa = f;
+      if (side == -1) fb *= 0.5;
+      side = -1;
+    } else {
+      b = root;
+      fb = f;
+      if (side == 1) fa *= 0.5;
+      side = 1;
+    }
+  }
+  return Status::failed;
+}
+
+/// The solution with λ = bound exactly, between two points on either side of it.
+ContinuationSolver::Status ContinuationSolver::locateBound(const Point& from, const Point& to, double bound,
+                                                           Point& end) {
+  const double scaledBound = bound / options_.parameterScale;
+  const Eigen::Index n = from.y.size() - 1;
+  const double length = to.arcLength - from.arcLength;
+  const Hermite cubic{from.y, from.tangent, to.y, to.tangent, length};
+  double low = 0;
+  double high = length;
+  const bool rising = from.parameter() < scaledBound;
+  for (int bisection = 0; bisection < 60; ++bisection) {
+    const double middle = 0.5 * (low + high);
+    ((cubic.value(middle)[n] < scaledBound) == rising ? low : high) = middle;
+  }
+  Vector predicted = cubic.value(high);
+  predicted[n] = scaledBound;
+  end.y = predicted;
+  const Vector fixed = Vector::Unit(n + 1, n);
+  Status status = correct(end, fixed);
+  if (status == Status::converged) status = findTangent(end, cubic.derivative(high).normalized());
+  end.arcLength = from.arcLength + high;
+  return status;
+}
+
+/// Folds, monitors and the end of the branch in one step, in their order. `to` becomes the end if there is one.
+ContinuationSolver::Status ContinuationSolver::locateEvents(const Point& from, Point& to, std::vector<Event>& events) {
+  const Eigen::Index n = from.y.size() - 1;
+  const auto rate = [n](const Point& point) { return point.tangent[n]; };
+  if (rate(from) * rate(to) < 0) {
+    Event fold{{}, BranchEvent::fold, -1, false};
+    if (const Status status = locate(from, to, rate, fold.point); status != Status::converged) return status;
+    if (inRange(fold.point)) {
+      events.push_back(fold);
+    } else {
+      to = fold.point;  // the branch leaves the range before it turns back
+    }
+  }
+  bool ended = false;
+  if (!inRange(to)) {
+    const double bound = to.parameter() * options_.parameterScale > options_.upper ? options_.upper : options_.lower;
+    Point end;
+    if (const Status status = locateBound(from, to, bound, end); status != Status::converged) return status;
+    end.monitors = problem_.monitors(unscaled(end));
+    to = end;
+    ended = true;
+    std::erase_if(events, [&](const Event& event) { return event.point.arcLength >= end.arcLength; });
+  }
+  for (Eigen::Index m = 0; m < from.monitors.size(); ++m) {
+    if (!(from.monitors[m] > 0 && to.monitors[m] <= 0)) continue;
+    Event event{{}, BranchEvent::monitor, static_cast<int>(m), false};
+    const auto monitor = [m](const Point& point) { return point.monitors[m]; };
+    if (const Status status = locate(from, to, monitor, event.point); status != Status::converged) return status;
+    events.push_back(event);
+  }
+  events.push_back({to, BranchEvent::none, -1, ended});
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.point.arcLength < b.point.arcLength; });
+  return Status::converged;
+}
+
+base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double parameter,
+                                             base::ExecutionContext& context, const PointCallback& onPoint) {
+  using base::TerminationType;
+  const auto begin = std::chrono::steady_clock::now();
+  base::SolverReport report;
+  const auto finish = [&](TerminationType termination, const char* message = "") {
+    report.termination = termination;
+    report.message = message;
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return report;
+  };
+  const auto emit = [&](const Point& point, double step, BranchEvent kind, int monitor) {
+    report.iterations.push_back({static_cast<int>(report.iterations.size()), point.residual, step});
+    onPoint(unscaled(point), kind, monitor);
+  };
+  context_ = &context;
+  factorized_ = false;
+
+  const Eigen::Index n = x.size();
+  Point current;
+  current.y.resize(n + 1);
+  current.y << x / options_.stateScale, parameter / options_.parameterScale;
+  const Vector start = Vector::Unit(n + 1, n) * (options_.orientation < 0 ? -1.0 : 1.0);
+  Status status = solveAt(current, Vector(current.y), start);
+  if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
+  if (status != Status::converged)
+    return finish(TerminationType::failed, "The starting point is no solution that a branch can be followed from.");
+  emit(current, 0, BranchEvent::none, -1);
+
+  Point before;
+  bool hasBefore = false;
+  double step = options_.initialStep;
+  while (static_cast<int>(report.iterations.size()) < options_.maximumPoints) {
+    const double rate = std::abs(current.tangent[n]) * options_.parameterScale;
+    step = std::min({step, options_.maximumStep, options_.maximumParameterStep / std::max(rate, 1e-300)});
+    Point next;
+    double angle = 0;
+    std::vector<Event> events;
+    status = advance(hasBefore ? &before : nullptr, current, step, next, angle);
+    const int corrections = next.iterations;
+    if (status == Status::converged) status = locateEvents(current, next, events);
+    if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
+    if (status == Status::failed) {
+      step *= 0.5;
+      if (step < options_.minimumStep)
+        return finish(TerminationType::failed, "The continuation is stuck: no step, however short, reaches a solution.");
+      continue;
+    }
+    for (const Event& event : events) {
+      emit(event.point, step, event.kind, event.monitor);
+      if (event.end) return finish(TerminationType::converged);
+    }
+    const double easy = corrections <= 4 ? 2.0 : corrections <= 8 ? 1.0 : 0.7;
+    step *= std::clamp(options_.targetAngle / std::max(angle, 1e-12), 0.5, easy);
+    before = current;
+    current = next;
+    hasBefore = true;
+  }
+  return finish(TerminationType::iterationLimit, "The continuation reached its limit of points.");
+}
+
+}  // namespace pliant::solvers
