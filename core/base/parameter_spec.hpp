@@ -17,11 +17,14 @@ enum class ValueKind {
   integer,
   boolean,
   text,
-  choice,   ///< one of `choices`
-  path,     ///< a file, relative to the scene
-  list,     ///< `items.front()` describes each entry
-  object,   ///< `fields` describe the keys
-  variant,  ///< an object whose key "type" chooses one of `items` (each an object whose `key` is the type's name)
+  name,       ///< a text that is unique in its list and can name a folder: letters, digits, space, "-", "_", "."
+  reference,  ///< the name of an entry of the scene's list `target`; if optional, the only entry where there is one
+  choice,     ///< one of `choices`
+  path,       ///< a file, relative to the scene
+  list,       ///< `items[i]` describes entry i, the last item all further entries
+  object,     ///< `fields` describe the keys
+  variant,    ///< an object whose key "type" chooses one of `items` (each an object whose `key` is the type's name);
+              ///< "type" may be left out where there is one item
 };
 
 /// One key of a scene, declared once: the file format, its JSON Schema, the property panel, tooltips, the command line
@@ -39,7 +42,10 @@ struct ParameterSpec {
   bool exclusiveMinimum = false;
   int minimumCount = 0;                                ///< list: smallest length
   int maximumCount = std::numeric_limits<int>::max();  ///< list: largest length
+  bool spatial = false;  ///< list: as many entries as the scene has dimensions; a longer default is cut
   std::vector<std::string> choices;
+  std::string target;                   ///< reference: key of the list whose entries are named
+  std::vector<std::string> exactlyOne;  ///< object: of these keys exactly one must be there
   std::vector<ParameterSpec> fields;
   std::vector<ParameterSpec> items;
 

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/normalize.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+
+namespace {
+
+std::string at(const char* list, std::size_t index) { return childPointer("/" + std::string(list), index); }
+
+void checkMasses(Json& scene) {
+  for (std::size_t i = 0; i < scene["point_masses"].size(); ++i) {
+    Json& entry = scene["point_masses"][i];
+    const double mass = entry["mass"];
+    if (!entry.contains("maximum")) {
+      if (mass == 0) throw InputError(at("point_masses", i) + "/maximum", "This key is missing; a mass of 0 needs it.");
+      entry["maximum"] = 5 * mass;
+    }
+    const double minimum = entry["minimum"], maximum = entry["maximum"];
+    const auto show = [](double value) { return base::formatQuantityExactly(value, base::dimensions::mass); };
+    if (!(minimum < maximum))
+      throw InputError(at("point_masses", i) + "/maximum",
+                       "The largest mass, " + show(maximum) + ", is not above the smallest, " + show(minimum) + ".");
+    if (mass < minimum || mass > maximum)
+      throw InputError(at("point_masses", i) + "/mass", "The mass, " + show(mass) + ", does not lie between its bounds, " +
+                                                            show(minimum) + " and " + show(maximum) + ".");
+  }
+}
+
+void checkNotZero(const Json& vector, const std::string& pointer) {
+  if (std::all_of(vector.begin(), vector.end(), [](const Json& c) { return c.get<double>() == 0; }))
+    throw InputError(pointer, "A direction must not be zero.");
+}
+
+void checkDirections(const Json& scene) {
+  for (const char* list : {"springs", "drives", "loads"})
+    for (std::size_t i = 0; i < scene[list].size(); ++i)
+      for (const char* key : {"direction", "axis"})
+        if (scene[list][i].contains(key)) checkNotZero(scene[list][i][key], at(list, i) + "/" + key);
+  for (std::size_t i = 0; i < scene["geometry"].size(); ++i)
+    if (scene["geometry"][i].contains("rotation"))
+      checkNotZero(scene["geometry"][i]["rotation"]["axis"], at("geometry", i) + "/rotation/axis");
+}
+
+void checkDimension(const Json& scene) {
+  const int dimension = scene["dimension"];
+  const std::string because = " because the scene's dimension is " + std::to_string(dimension) + ".";
+  for (std::size_t i = 0; i < scene["geometry"].size(); ++i)
+    if (dimension == 1 && scene["geometry"][i]["type"] != "points")
+      throw InputError(at("geometry", i) + "/type", "Only \"points\" is possible" + because);
+  for (std::size_t i = 0; i < scene["elements"].size(); ++i)
+    if (dimension < 3 && scene["elements"][i]["type"] != "membrane")
+      throw InputError(at("elements", i) + "/type", "Only \"membrane\" is possible" + because);
+  for (std::size_t i = 0; i < scene["drives"].size(); ++i)
+    if (dimension == 1 && scene["drives"][i]["type"] == "rotation")
+      throw InputError(at("drives", i) + "/type", "A rotation is not possible" + because);
+  for (std::size_t i = 0; i < scene["boundary_conditions"].size(); ++i) {
+    const Json& entry = scene["boundary_conditions"][i];
+    if (!entry.contains("coordinates")) continue;
+    for (std::size_t c = 0; c < entry["coordinates"].size(); ++c)
+      if (entry["coordinates"][c].get_ref<const std::string&>()[0] - 'x' >= dimension)
+        throw InputError(childPointer(at("boundary_conditions", i) + "/coordinates", c),
+                         "There is no such coordinate" + because);
+  }
+}
+
+void checkStudies(const Json& scene) {
+  for (std::size_t i = 0; i < scene["studies"].size(); ++i) {
+    const Json& study = scene["studies"][i];
+    const int harmonics = study["harmonics"], samples = study["samples"];
+    if (samples < 2 * harmonics + 1)
+      throw InputError(at("studies", i) + "/samples", "Expected at least " + std::to_string(2 * harmonics + 1) +
+                                                          " samples for " + std::to_string(harmonics) +
+                                                          " harmonics, found " + std::to_string(samples) + ".");
+    if (study.contains("from") && study["from"] == study["to"])
+      throw InputError(at("studies", i) + "/to", "The curve must end at another frequency than it starts from.");
+    if (study.contains("harmonics_tolerance") && study["maximum_harmonics"] < study["harmonics"])
+      throw InputError(at("studies", i) + "/maximum_harmonics",
+                       "Expected at least as many as \"harmonics\", " + std::to_string(harmonics) + ".");
+  }
+}
+
+void checkExpected(const Json& scene) {
+  for (std::size_t i = 0; i < scene["expected"].size(); ++i) {
+    const auto& pointer = scene["expected"][i]["pointer"].get_ref<const std::string&>();
+    try {
+      static_cast<void>(Json::json_pointer(pointer));
+    } catch (const Json::parse_error&) {
+      throw InputError(at("expected", i) + "/pointer", quote(pointer) + " is no JSON pointer; it starts with \"/\".");
+    }
+  }
+}
+
+}  // namespace
+
+void checkScene(Json& normalized) {
+  checkMasses(normalized);
+  checkDirections(normalized);
+  checkDimension(normalized);
+  checkStudies(normalized);
+  checkExpected(normalized);
+}
+
+}  // namespace pliant::scene

@@ -1,0 +1,230 @@
+#include "core/scene/scene.hpp"
+#include "core/scene/spec_builder.hpp"
+#include "core/scene/study_specs.hpp"
+
+namespace pliant::scene {
+namespace {
+
+using namespace spec;
+namespace dimensions = base::dimensions;
+
+constexpr int longestList = 10'000;
+constexpr int largestMesh = 1'000'000;
+
+/// A geometry: its own keys between its name and its placement.
+ParameterSpec geometry(std::string type, std::string description, std::vector<ParameterSpec> keys) {
+  keys.insert(keys.begin(), name());
+  keys.push_back(withDefault(vector("position", "Where the geometry's origin is put.", dimensions::length), {0, 0, 0}));
+  keys.push_back(optional(object(
+      "rotation", "Turns the geometry about its origin before it is put in place.",
+      {withDefault(list("axis", "Axis of rotation; only its direction counts.",
+                        number("", "", "A component.", dimensions::none), 3, 3),
+                   {0, 0, 1}),
+       number("angle", "", "Angle, counter-clockwise seen against the axis.", dimensions::angle)})));
+  return object(std::move(type), std::move(description), std::move(keys));
+}
+
+ParameterSpec cells(std::string key, std::string description) {
+  return integer(std::move(key), "", std::move(description), 1, 1000);
+}
+
+ParameterSpec length(std::string key, std::string description) {
+  return positive(number(std::move(key), "", std::move(description), dimensions::length));
+}
+
+ParameterSpec points() {
+  return list("points", "Positions of the nodes.", vector("", "A position.", dimensions::length), 1, largestMesh);
+}
+
+ParameterSpec geometries() {
+  return variant(
+      "geometry", "Nodes, and triangles between them.",
+      {geometry("points", "Nodes without triangles.", {points()}),
+       geometry("fork",
+                "A handle along x from the origin that branches into two prongs, in the plane z = 0. Groups: \"base\", "
+                "\"left_tip\" (y > 0), \"right_tip\".",
+                {length("handle_length", "Length of the handle."), length("prong_length", "Length of each prong."),
+                 length("width", "Width of the handle and of each prong."),
+                 length("spacing", "Distance between the centre lines of the prongs."),
+                 cells("handle_cells", "Cells along the handle."), cells("prong_cells", "Cells along each prong."),
+                 cells("width_cells", "Cells across the handle and each prong.")}),
+       geometry("strip",
+                "A narrow rectangle along x from the origin, centred in y, in the plane z = 0. Groups: \"start\" "
+                "(x = 0), \"end\".",
+                {length("length", "Size along x."), length("width", "Size along y."),
+                 cells("length_cells", "Cells along x."), withDefault(cells("width_cells", "Cells along y."), 1)}),
+       geometry("grid",
+                "A rectangle along x from the origin, centred in y, in the plane z = 0. Groups: \"start\" (x = 0), "
+                "\"end\", \"left\" (largest y), \"right\".",
+                {length("length", "Size along x."), length("width", "Size along y."),
+                 cells("length_cells", "Cells along x."), cells("width_cells", "Cells along y.")}),
+       geometry("mesh", "Triangles written in the scene.",
+                {points(), list("triangles", "Three node indices each, counted from 0.",
+                                list("", "A triangle.", integer("", "", "A node.", 0, 1'000'000'000), 3, 3), 0,
+                                2 * largestMesh)}),
+       geometry("file", "Triangles read from an STL, OBJ or PLY file.", [] {
+         ParameterSpec path = text("path", "The file, relative to the scene.");
+         path.kind = base::ValueKind::path;
+         return std::vector<ParameterSpec>{
+             path,
+             withDefault(positive(number("scale", "", "Metres per unit of the file.", dimensions::none)), 1),
+             withDefault(notNegative(number("weld_tolerance", "", "Points closer than this become one node.",
+                                            dimensions::length)),
+                         "1 um")};
+       }())});
+}
+
+ParameterSpec materials() {
+  return variant(
+      "material", "What elements are made of.",
+      {object("isotropic", "St. Venant-Kirchhoff, the same in every direction.",
+              {name(), positive(number("density", "ρ", "Mass per volume.", dimensions::density)),
+               positive(number("young_modulus", "E", "Young's modulus.", dimensions::pressure)),
+               within(number("poisson_ratio", "ν", "Poisson's ratio.", dimensions::none), -0.99, 0.5)})});
+}
+
+ParameterSpec elements() {
+  const auto element = [](std::string type, std::string description) {
+    return object(
+        std::move(type), std::move(description),
+        {name(),
+         optional(reference("geometry", "Whose triangles; may be left out where there is one.", "geometry")),
+         optional(reference("material", "May be left out where there is one.", "materials")),
+         positive(number("thickness", "h", "Thickness.", dimensions::length))});
+  };
+  return variant(
+      "element", "Turns the triangles of a geometry into an elastic body with mass.",
+      {element("shell", "A membrane that also resists bending (discrete shells), in 3 dimensions."),
+       element("membrane", "Resists stretch and shear alone (constant-strain triangles), in 2 or 3 dimensions."),
+       element("bending", "Resists bending alone and has no mass, in 3 dimensions.")});
+}
+
+ParameterSpec coefficients() {
+  constexpr int highestPower = 9;
+  ParameterSpec spec = list("coefficients",
+                            "Force = Σ coefficients[i] e^(i+1) of the elongation e: N/m, N/m^2, N/m^3, ...",
+                            number("", "", "Coefficient of e.", dimensions::stiffness), 1, highestPower);
+  for (int i = 1; i < highestPower; ++i)
+    spec.items.push_back(number("", "", "Coefficient of e^" + std::to_string(i + 1) + ".", {1, -i, -2, 0}));
+  return spec;
+}
+
+ParameterSpec springs() {
+  const auto restLength = optional(notNegative(
+      number("rest_length", "l", "Length without force; the distance in the rest shape if left out.", dimensions::length)));
+  return variant(
+      "spring", "A force along a line, a polynomial of the elongation.",
+      {object("between", "Between two nodes; elongation = distance - rest_length.",
+              {name(), selection("from", "One node."), selection("to", "Another node."), restLength, coefficients()}),
+       object("anchored", "Between a node and a fixed place; elongation = distance - rest_length.",
+              {name(), selection("at", "One node."), vector("anchor", "The fixed place.", dimensions::length), restLength,
+               coefficients()}),
+       object("grounded", "Pulls a node back along a direction; elongation = displacement along it.",
+              {name(), selection("at", "Nodes; each gets its own spring."),
+               vector("direction", "Only the direction counts.", dimensions::none), coefficients()})});
+}
+
+ParameterSpec pointMasses() {
+  return object("point_mass", "A mass on each of some nodes; a design parameter.",
+                {name(), selection("at", "Nodes; each gets the mass."),
+                 notNegative(number("mass", "m", "Mass.", dimensions::mass)),
+                 withDefault(notNegative(number("minimum", "", "Smallest mass in design.", dimensions::mass)), 0),
+                 optional(notNegative(number("maximum", "", "Largest mass in design; 5 times the mass if left out.",
+                                             dimensions::mass)))});
+}
+
+ParameterSpec boundaryConditions() {
+  return variant("boundary_condition", "What some nodes may not do.",
+                 {object("locked", "Coordinates that keep their rest value.",
+                         {name(), selection("at", "Nodes."),
+                          optional(list("coordinates", "Which; all if left out.",
+                                        choice("", "A coordinate.", {"x", "y", "z"}), 1, 3))})});
+}
+
+ParameterSpec drives() {
+  return variant(
+      "drive", "Prescribes the periodic motion of nodes exactly.",
+      {object("translation", "Moves nodes along a line.",
+              {name(), selection("at", "Nodes."), vector("direction", "Only the direction counts.", dimensions::none),
+               signal("Displacement over time.", dimensions::length)}),
+       object("rotation", "Turns nodes about an axis.",
+              {name(), selection("at", "Nodes."),
+               withDefault(vector("center", "A place on the axis.", dimensions::length), {0, 0, 0}),
+               withDefault(list("axis", "Direction of the axis; in 2 dimensions it is z.",
+                                number("", "", "A component.", dimensions::none), 3, 3),
+                           {0, 0, 1}),
+               signal("Angle over time.", dimensions::angle)})});
+}
+
+ParameterSpec loads() {
+  return variant(
+      "load", "External forces.",
+      {object("gravity", "Acts on all mass.",
+              {name(), vector("acceleration", "Such as [0, 0, -9.81].", dimensions::acceleration)}),
+       object("harmonic_force", "A periodic force on each of some nodes.",
+              {name(), selection("at", "Nodes; each gets the force."),
+               vector("direction", "Only the direction counts.", dimensions::none),
+               signal("Force over time.", dimensions::force)})});
+}
+
+ParameterSpec expectedValues() {
+  ParameterSpec spec = object(
+      "expected_value", "What a study must give; running a scene checks it.",
+      {reference("study", "Name of the study.", "studies"),
+       text("pointer", "JSON pointer into the study's summary.json."),
+       number("value", "", "Expected number, in SI.", dimensions::none),
+       optional(notNegative(number("tolerance", "", "Largest difference, in SI.", dimensions::none))),
+       optional(notNegative(number("relative_tolerance", "", "Largest difference as a fraction of the value.",
+                                   dimensions::none)))});
+  spec.exactlyOne = {"tolerance", "relative_tolerance"};
+  return spec;
+}
+
+ParameterSpec entries(std::string key, std::string description, ParameterSpec item) {
+  return withDefault(list(std::move(key), std::move(description), std::move(item), 0, longestList), Json::array());
+}
+
+ParameterSpec makeSceneSpec() {
+  ParameterSpec scene = object(
+      "scene", "A scene.",
+      {integer("schema_version", "", "Version of this format: 1.", schemaVersion, schemaVersion),
+       withDefault(text("title", "A few words, shown in the window."), ""),
+       withDefault(text("description", "A sentence or more about the scene."), ""),
+       withDefault(integer("dimension", "d", "Number of coordinates of a node; every vector has as many entries.", 1, 3),
+                   3),
+       withDefault(choice("mass_matrix", "How the mass of elements acts: on the nodes alone, or coupling neighbours.",
+                          {"lumped", "consistent"}),
+                   "lumped"),
+       entries("geometry", "Nodes and triangles.", geometries()),
+       entries("materials", "What elements are made of.", materials()),
+       entries("elements", "Elastic bodies.", elements()),
+       entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
+       entries("springs", "Springs.", springs()),
+       entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
+       entries("drives", "Nodes that are moved.", drives()),
+       entries("loads", "Forces.", loads()),
+       withDefault(
+           object("damping", "Rayleigh damping D = D_α M + D_β K(x).",
+                  {withDefault(notNegative(number("mass_proportional", "D_α", "Factor of the mass matrix.",
+                                                  dimensions::rate)),
+                               0),
+                   withDefault(notNegative(number("stiffness_proportional", "D_β",
+                                                  "Factor of the tangent stiffness matrix.", dimensions::time)),
+                               0)}),
+           Json::object()),
+       entries("probes", "Nodes whose motion is reported.",
+               object("probe", "A node whose trajectory and amplitude are reported.",
+                      {name(), selection("at", "One node.")})),
+       entries("studies", "What to compute.", variant("study", "A computation.", studySpecs())),
+       entries("expected", "Values that the studies must give.", expectedValues())});
+  return scene;
+}
+
+}  // namespace
+
+const base::ParameterSpec& sceneSpec() {
+  static const base::ParameterSpec spec = makeSceneSpec();
+  return spec;
+}
+
+}  // namespace pliant::scene
