@@ -38,8 +38,9 @@ void requireVector(const Vector& value, int size, const std::string& what) {
   for (int i = 0; i < size; ++i) requireFinite(value[i], what);
 }
 
-void requireDimension(int dimension, const std::string& what) {
-  if (dimension != 2 && dimension != 3) refuse(what + " must have 2 or 3 dimensions, but has " + std::to_string(dimension));
+void requireDimension(int dimension, const std::string& what, int least) {
+  if (dimension < least || dimension > 3)
+    refuse(what + " must have " + std::to_string(least) + " to 3 dimensions, but has " + std::to_string(dimension));
 }
 
 void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& what) {

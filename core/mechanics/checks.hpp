@@ -14,8 +14,8 @@ void requireNotNegative(double value, const std::string& what);
 void requirePositive(double value, const std::string& what);
 /// Finite, and of the given size.
 void requireVector(const Vector& value, int size, const std::string& what);
-/// 2 or 3.
-void requireDimension(int dimension, const std::string& what);
+/// From `least` to 3.
+void requireDimension(int dimension, const std::string& what, int least = 1);
 /// Every index in [0, nodeCount).
 void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& what);
 /// Orders of at least 0, finite amplitudes and phases.

@@ -58,7 +58,7 @@ std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, 
 std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vector center, Eigen::Vector3d axis,
                                                      PeriodicSignal signal) {
   requireVector(center, static_cast<int>(center.size()), "the rotation's center");
-  requireDimension(static_cast<int>(center.size()), "the rotation's center");
+  requireDimension(static_cast<int>(center.size()), "the rotation's center", 2);
   requireSignal(signal, "the rotation's signal");
   if (center.size() == 2) {
     axis = Eigen::Vector3d::UnitZ();

@@ -18,7 +18,7 @@ void requireElasticMaterial(const ShellMaterial& material) {
 }
 
 void requireTriangles(int dimension, const Vector& restPositions, const Triangles& triangles) {
-  requireDimension(dimension, "a shell");
+  requireDimension(dimension, "a shell", 2);
   requireVector(restPositions, static_cast<int>(restPositions.size()), "the rest positions");
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const std::string what = "triangle " + std::to_string(t);

@@ -188,8 +188,9 @@ std::shared_ptr<const Energy> makeSpring(int dimension, int nodeA, int nodeB, do
   requireNotNegative(restLength, "a spring's rest length");
   if (nodeA == nodeB)
     throw base::InputError("", "a spring must join two different nodes, but both are node " + std::to_string(nodeA));
-  return dimension == 2 ? springBetween<2>(nodeA, nodeB, restLength, law)
-                        : springBetween<3>(nodeA, nodeB, restLength, law);
+  return dimension == 1   ? springBetween<1>(nodeA, nodeB, restLength, law)
+         : dimension == 2 ? springBetween<2>(nodeA, nodeB, restLength, law)
+                          : springBetween<3>(nodeA, nodeB, restLength, law);
 }
 
 std::shared_ptr<const Energy> makeAnchoredSpring(int dimension, int node, const Vector& anchor, double restLength,
@@ -197,8 +198,9 @@ std::shared_ptr<const Energy> makeAnchoredSpring(int dimension, int node, const 
   checkLaw(dimension, law);
   requireNotNegative(restLength, "a spring's rest length");
   requireVector(anchor, dimension, "a spring's anchor");
-  return dimension == 2 ? springToAnchor<2>(node, anchor, restLength, law)
-                        : springToAnchor<3>(node, anchor, restLength, law);
+  return dimension == 1   ? springToAnchor<1>(node, anchor, restLength, law)
+         : dimension == 2 ? springToAnchor<2>(node, anchor, restLength, law)
+                          : springToAnchor<3>(node, anchor, restLength, law);
 }
 
 std::shared_ptr<const Energy> makeGroundedSpring(int dimension, int node, const Vector& rest, const Vector& direction,
@@ -209,7 +211,9 @@ std::shared_ptr<const Energy> makeGroundedSpring(int dimension, int node, const 
   if (std::abs(direction.norm() - 1) > 1e-6)
     throw base::InputError("", "a grounded spring's direction must have length 1, but has length " +
                                    std::to_string(direction.norm()));
-  return dimension == 2 ? springToGround<2>(node, rest, direction, law) : springToGround<3>(node, rest, direction, law);
+  return dimension == 1   ? springToGround<1>(node, rest, direction, law)
+         : dimension == 2 ? springToGround<2>(node, rest, direction, law)
+                          : springToGround<3>(node, rest, direction, law);
 }
 
 }  // namespace pliant::mechanics
