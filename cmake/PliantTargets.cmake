@@ -4,9 +4,9 @@
 
 find_program(PLIANT_CCACHE ccache)
 if(PLIANT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # With the base folder two checkouts share what they have in common; the rest is what precompiled headers need.
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
-      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${PLIANT_CCACHE})
+  # With the base folder two checkouts share what they have in common; the compiler itself lists the headers used.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_DEPEND=1 CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+      CCACHE_SLOPPINESS=include_file_mtime,include_file_ctime ${PLIANT_CCACHE})
 endif()
 
 add_library(pliant_options INTERFACE)
