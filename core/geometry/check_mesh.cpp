@@ -24,13 +24,13 @@ void checkIndices(const SurfaceMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int node : mesh.triangles[t])
       if (!inRange(node))
-        throw base::InputError("", named("triangle", t) + " names point " + std::to_string(node) + ", but there are " +
-                                       count + " points");
+        throw base::InputError(
+            "", named("triangle", t) + " names point " + std::to_string(node) + ", but there are " + count + " points");
   for (const auto& [name, nodes] : mesh.groups)
     for (const int node : nodes)
       if (!inRange(node))
-        throw base::InputError("", "group '" + name + "' names point " + std::to_string(node) + ", but there are " +
-                                       count + " points");
+        throw base::InputError(
+            "", "group '" + name + "' names point " + std::to_string(node) + ", but there are " + count + " points");
 }
 
 bool isDegenerate(const SurfaceMesh& mesh, const std::array<int, 3>& triangle) {
@@ -44,10 +44,9 @@ bool isDegenerate(const SurfaceMesh& mesh, const std::array<int, 3>& triangle) {
 void checkShapes(const SurfaceMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (isDegenerate(mesh, mesh.triangles[t]))
-      throw base::InputError("", named("triangle", t) + " has no area: its corners are points " +
-                                     std::to_string(mesh.triangles[t][0]) + ", " +
-                                     std::to_string(mesh.triangles[t][1]) + " and " +
-                                     std::to_string(mesh.triangles[t][2]));
+      throw base::InputError(
+          "", named("triangle", t) + " has no area: its corners are points " + std::to_string(mesh.triangles[t][0]) +
+                  ", " + std::to_string(mesh.triangles[t][1]) + " and " + std::to_string(mesh.triangles[t][2]));
 }
 
 void checkDuplicates(const SurfaceMesh& mesh) {

@@ -1,8 +1,8 @@
+#include <assimp/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
-#include <assimp/scene.h>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -26,7 +26,8 @@ constexpr Format formats[] = {{".stl", "stlb", 1, true},   {".obj", "objnomtl", 
 
 const Format* findFormat(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(
+      extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
   for (const Format& format : formats)
     if (extension == format.extension) return &format;
   return nullptr;
@@ -88,9 +89,7 @@ class TriangleCollector {
     }
   }
 
-  Eigen::Vector3d normal(int a, int b, int c) const {
-    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
-  }
+  Eigen::Vector3d normal(int a, int b, int c) const { return (points_[b] - points_[a]).cross(points_[c] - points_[a]); }
 
   /// Splits a polygon into a fan about the first of its corners for which no triangle of the fan is turned over.
   void split(const std::vector<int>& polygon, unsigned face) {
@@ -107,7 +106,8 @@ class TriangleCollector {
         triangles_.push_back({corner(first), corner(first + i), corner(first + i + 1)});
       return;
     }
-    throw base::InputError("", "face " + std::to_string(face) + " is a polygon that cannot be split into a fan of triangles");
+    throw base::InputError(
+        "", "face " + std::to_string(face) + " is a polygon that cannot be split into a fan of triangles");
   }
 
   const aiScene& scene_;
@@ -115,13 +115,14 @@ class TriangleCollector {
   std::vector<std::array<int, 3>> triangles_;
 };
 
-/// The mesh as a scene with one node below its root (assimp's 3MF exporter skips the root); assimp deletes what it holds.
+/// The mesh as a scene with one node below its root (assimp's 3MF exporter skips the root); assimp deletes what it
+/// holds.
 std::unique_ptr<aiScene> toScene(const SurfaceMesh& mesh, double unitsPerMetre) {
   auto scene = std::make_unique<aiScene>();
-  scene->mMaterials = new aiMaterial*[1]{new aiMaterial};
+  scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
   scene->mNumMaterials = 1;
   auto* part = new aiMesh;
-  scene->mMeshes = new aiMesh*[1]{part};
+  scene->mMeshes = new aiMesh* [1] { part };
   scene->mNumMeshes = 1;
   auto* node = new aiNode("mesh");
   node->mMeshes = new unsigned[1]{0};
@@ -159,7 +160,8 @@ SurfaceMesh readMesh(const std::filesystem::path& file, double scale) {
   refuseEndlessHeader(file);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (!scene) throw base::InputError("", "the mesh '" + file.string() + "' cannot be read: " + importer.GetErrorString());
+  if (!scene)
+    throw base::InputError("", "the mesh '" + file.string() + "' cannot be read: " + importer.GetErrorString());
   try {
     SurfaceMesh mesh = TriangleCollector(*scene).finish(scale);
     checkPointsAndIndices(mesh);

@@ -46,8 +46,10 @@ class LatticeMesh {
     for (int i = iBegin; i < iEnd; ++i)
       for (int j = jBegin; j < jEnd; ++j) {
         const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-        if ((i + j) % 2 == 0) triangles_.insert(triangles_.end(), {{a, b, c}, {a, c, d}});
-        else triangles_.insert(triangles_.end(), {{a, b, d}, {b, c, d}});
+        if ((i + j) % 2 == 0)
+          triangles_.insert(triangles_.end(), {{a, b, c}, {a, c, d}});
+        else
+          triangles_.insert(triangles_.end(), {{a, b, d}, {b, c, d}});
       }
   }
 
@@ -143,8 +145,9 @@ SurfaceMesh makeFork(const ForkShape& shape) {
     const double atProngs = placeLine(distance, 0.5 * gapCells, 0.5 * gap, widthCells, edge);
     const double acrossBar = std::clamp(static_cast<double>(i - barBegin) / widthCells, 0.0, 1.0);
     const double x = i <= barBegin ? shape.handleLength * i / shape.handleCells
-                     : i <= barEnd ? shape.handleLength + cell * (i - barBegin)
-                                   : shape.handleLength + shape.width + shape.prongLength * (i - barEnd) / shape.prongCells;
+                     : i <= barEnd
+                         ? shape.handleLength + cell * (i - barBegin)
+                         : shape.handleLength + shape.width + shape.prongLength * (i - barEnd) / shape.prongCells;
     return Eigen::Vector3d(x, side * ((1 - acrossBar) * atHandle + acrossBar * atProngs), 0);
   });
   lattice.addCells(0, barBegin, handleBegin, handleBegin + widthCells);

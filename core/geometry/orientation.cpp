@@ -37,8 +37,9 @@ std::vector<std::array<int, 3>> orientTriangles(std::vector<std::array<int, 3>> 
         const bool agrees = runsForwards(triangles[t], edge.nodes) != runsForwards(triangles[other], edge.nodes);
         if (visited[other]) {
           if (!agrees)
-            throw base::InputError("", "triangle " + std::to_string(other) + " cannot be turned to agree with triangle " +
-                                           std::to_string(t) + ": the surface is one-sided");
+            throw base::InputError("", "triangle " + std::to_string(other) +
+                                           " cannot be turned to agree with triangle " + std::to_string(t) +
+                                           ": the surface is one-sided");
           continue;
         }
         if (!agrees) std::swap(triangles[other][1], triangles[other][2]);

@@ -26,23 +26,24 @@ inline constexpr double smallestRelativeArea = 1e-10;
 /// consistent.
 void checkMesh(const SurfaceMesh& mesh);
 
-/// Points closer than `tolerance` [m] made one, triangles oriented consistently within each connected part (as its first
-/// triangle is). Each point joins the first one kept that is near enough. The result is checked as in checkMesh, so that
-/// triangles that collapse by welding are an error; triangles keep their order, and points that remain keep theirs.
+/// Points closer than `tolerance` [m] made one, triangles oriented consistently within each connected part (as its
+/// first triangle is). Each point joins the first one kept that is near enough. The result is checked as in checkMesh,
+/// so that triangles that collapse by welding are an error; triangles keep their order, and points that remain keep
+/// theirs.
 SurfaceMesh weldMesh(const SurfaceMesh& mesh, double tolerance);
 
 /// Reads an STL, OBJ, PLY, glTF or glb file through assimp, lengths multiplied by `scale`. Polygons become triangles,
-/// points of no triangle are left out; nothing is welded, and there are no groups. Coordinates have passed through floats
-/// (7 digits). Throws base::InputError (location empty) if the file is missing, not readable, or holds no triangles, or
-/// if an index is out of range or a coordinate not finite.
+/// points of no triangle are left out; nothing is welded, and there are no groups. Coordinates have passed through
+/// floats (7 digits). Throws base::InputError (location empty) if the file is missing, not readable, or holds no
+/// triangles, or if an index is out of range or a coordinate not finite.
 SurfaceMesh readMesh(const std::filesystem::path& file, double scale);
 
 /// Writes STL, OBJ, PLY, glTF (with a .bin beside it), glb or 3MF, chosen by the extension, with coordinates as floats
 /// in metres; 3MF in millimetres, as it must be, with six digits. Throws base::InputError (location empty).
 void writeMesh(const SurfaceMesh& mesh, const std::filesystem::path& file);
 
-/// Edges as node pairs (a < b, sorted), with the triangles on their sides (-1: none). Throws base::InputError if an edge
-/// has more than two.
+/// Edges as node pairs (a < b, sorted), with the triangles on their sides (-1: none). Throws base::InputError if an
+/// edge has more than two.
 struct MeshEdge {
   std::array<int, 2> nodes;
   std::array<int, 2> triangles;

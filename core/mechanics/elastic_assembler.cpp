@@ -20,8 +20,10 @@ void forEachEntry(const Model& model, const Energy& energy, const Visit& visit) 
       for (std::size_t j = 0; j <= i; ++j) {
         const int a = model.dofs.freeIndex[coordinates[i]];
         const int b = model.dofs.freeIndex[coordinates[j]];
-        if (a < 0 || b < 0) visit(-1, -1);
-        else visit(std::max(a, b), std::min(a, b));
+        if (a < 0 || b < 0)
+          visit(-1, -1);
+        else
+          visit(std::max(a, b), std::min(a, b));
       }
   }
 }

@@ -39,7 +39,8 @@ class ElementEnergy final : public Energy {
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       const auto& coordinates = coordinates_[e];
       for (int i = 0; i < d; ++i) math::load(block.x + coordinates[i] * block.stride, x[i]);
-      const T value = elements_[e].evaluate(x, block.gradient ? &gradient : nullptr, block.hessian ? &hessian : nullptr);
+      const T value =
+          elements_[e].evaluate(x, block.gradient ? &gradient : nullptr, block.hessian ? &hessian : nullptr);
       if (block.value) math::addTo(block.value, value);
       if (block.gradient)
         for (int i = 0; i < d; ++i) math::addTo(block.gradient + coordinates[i] * block.stride, gradient[i]);

@@ -12,9 +12,9 @@ namespace pliant::mechanics {
 template <class T>
 struct EvaluationBlock {
   const double* x = nullptr;
-  double* value = nullptr;     ///< laneCount<T> energies [J]; added to
-  double* gradient = nullptr;  ///< like x [N]; added to; null: not wanted
-  double* hessian = nullptr;   ///< entry s of the pattern at hessian[s * stride] [N/m]; added to; null: not wanted
+  double* value = nullptr;       ///< laneCount<T> energies [J]; added to
+  double* gradient = nullptr;    ///< like x [N]; added to; null: not wanted
+  double* hessian = nullptr;     ///< entry s of the pattern at hessian[s * stride] [N/m]; added to; null: not wanted
   const int* entries = nullptr;  ///< element-wise packed lower triangles -> entry of the pattern, -1: not wanted
   long stride = 1;
 };

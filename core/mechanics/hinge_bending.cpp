@@ -41,7 +41,8 @@ std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, cons
                                       cornerOpposite(triangles[right], edge.nodes)};
     const double squaredLength =
         (restPositions.segment<3>(3 * nodes[1]) - restPositions.segment<3>(3 * nodes[0])).squaredNorm();
-    const double area = triangleArea(3, restPositions, triangles[left]) + triangleArea(3, restPositions, triangles[right]);
+    const double area =
+        triangleArea(3, restPositions, triangles[left]) + triangleArea(3, restPositions, triangles[right]);
     elements.push_back({0.5 * rigidity * squaredLength / area, dihedralAngle(restPositions, nodes)});
     auto& indices = coordinates.emplace_back();
     for (int i = 0; i < 12; ++i) indices[i] = nodes[i / 3] * 3 + i % 3;

@@ -7,9 +7,10 @@ namespace pliant::mechanics {
 /// Bending over one interior edge: E = stiffness (θ - θ₀)², θ the dihedral angle (0 where flat).
 /// Corners: x₀ and x₁ on the edge, x₂ and x₃ opposite it. With e = x₁ - x₀, u = x₂ - x₀, v = x₃ - x₀:
 ///   n₁ = e × u, n₂ = v × e, θ = atan2(-|e| n₁·v, n₁·n₂).
-/// Derivatives (the angle's Hessian of Tamstorf & Grinspun 2013, derived anew in this form): in each of the two triangles
-/// let α = u·e/|e|² be the foot of the height on the edge, h the height, a = n/(|n|h) the unit normal over h,
-/// b = (u - αe)/h² the unit vector along the height over h, and P = abᵀ + baᵀ. With ε = e/|e|², in the coordinates (e, u, v),
+/// Derivatives (the angle's Hessian of Tamstorf & Grinspun 2013, derived anew in this form): in each of the two
+/// triangles let α = u·e/|e|² be the foot of the height on the edge, h the height, a = n/(|n|h) the unit normal over h,
+/// b = (u - αe)/h² the unit vector along the height over h, and P = abᵀ + baᵀ. With ε = e/|e|², in the coordinates (e,
+/// u, v),
 ///   ∂θ/∂u = -a₁, ∂θ/∂v = -a₂, ∂θ/∂e = α₁a₁ + α₂a₂,
 ///   θ_uu = P₁, θ_vv = P₂, θ_uv = 0, θ_ue = εa₁ᵀ - α₁P₁, θ_ve = εa₂ᵀ - α₂P₂,
 ///   θ_ee = Σ α²P - α(εaᵀ + aεᵀ) + (h/|e|)² abᵀ  (symmetric, summed over both triangles),
@@ -103,6 +104,7 @@ struct HingeElement {
     using Square = std::array<std::array<T, 3>, 3>;
     const T ratio1 = moment * one.squaredRatio, ratio2 = moment * two.squaredRatio;
     std::array<T, 3> c1, c2, ka2, edge;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i) {
       c1[i] = stiffness * one.a[i] + moment * one.b[i];  // a cᵀ + c aᵀ = 2 stiffness a aᵀ + moment P
       c2[i] = stiffness * two.a[i] + moment * two.b[i];
@@ -111,7 +113,9 @@ struct HingeElement {
     }
     // Blocks of the corners opposite the edge.
     Square uu, vv, vu;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
       for (int j = 0; j < 3; ++j) {
         vu[i][j] = h[packedIndex(9 + i, 6 + j)] = ka2[i] * one.a[j];
         if (j > i) continue;
@@ -120,7 +124,9 @@ struct HingeElement {
       }
     // Blocks of the edge; those of its first corner are minus the sums of the others.
     Square ee, ue, ve;
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
       for (int j = 0; j < 3; ++j) {
         const T footU = -(one.alpha * uu[i][j] + two.alpha * vu[j][i]);
         const T footV = -(two.alpha * vv[i][j] + one.alpha * vu[i][j]);
@@ -131,13 +137,17 @@ struct HingeElement {
         ee[i][j] = ee[j][i] = h[packedIndex(3 + i, 3 + j)] =
             bent - (one.alpha * footU + two.alpha * footV) - (epsilon[i] * edge[j] + edge[i] * epsilon[j]);
       }
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
       for (int j = 0; j < 3; ++j) {
         h[packedIndex(3 + i, j)] = -(ee[i][j] + ue[j][i] + ve[j][i]);
         h[packedIndex(6 + i, j)] = -(ue[i][j] + uu[i][j] + vu[j][i]);
         h[packedIndex(9 + i, j)] = -(ve[i][j] + vu[i][j] + vv[i][j]);
       }
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
       for (int j = 0; j <= i; ++j)
         h[packedIndex(i, j)] = -(h[packedIndex(3 + i, j)] + h[packedIndex(6 + i, j)] + h[packedIndex(9 + i, j)]);
   }

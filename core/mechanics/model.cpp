@@ -23,8 +23,8 @@ void checkSizes(const Model& model) {
     throw base::InputError("", "the element mass matrix must have a row and a column for each of the " +
                                    std::to_string(count) + " coordinates");
   if (static_cast<int>(model.lockedCoordinates.size()) != count)
-    throw base::InputError("", "the locked coordinates must be given for each of the " + std::to_string(count) +
-                                   " coordinates");
+    throw base::InputError(
+        "", "the locked coordinates must be given for each of the " + std::to_string(count) + " coordinates");
 }
 
 void checkParts(const Model& model) {
@@ -42,8 +42,7 @@ void checkParts(const Model& model) {
     requireVector(force.direction, model.dimension, what + "'s direction");
     requireSignal(force.signal, what);
   }
-  for (const Probe& probe : model.probes)
-    requireNodes(std::span(&probe.node, 1), nodes, quoted("probe", probe.name));
+  for (const Probe& probe : model.probes) requireNodes(std::span(&probe.node, 1), nodes, quoted("probe", probe.name));
   for (const auto& energy : model.energies)
     for (int e = 0; e < energy->elementCount(); ++e)
       for (const int coordinate : energy->elementCoordinates(e))

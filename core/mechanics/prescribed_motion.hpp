@@ -8,7 +8,8 @@
 namespace pliant::mechanics {
 
 /// rest + direction * signal(τ); `direction` as given, the signal in metres.
-std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, Vector direction, PeriodicSignal signal);
+std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, Vector direction,
+                                                        PeriodicSignal signal);
 
 /// Rotation by the angle signal(τ) [rad] about an axis through `center` (in 2 dimensions the axis is ignored: z).
 std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vector center, Eigen::Vector3d axis,

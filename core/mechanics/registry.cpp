@@ -74,16 +74,16 @@ Model springExample(std::mt19937& random, int dimension) {
 
 Model anchoredSpringExample(std::mt19937& random, int dimension) {
   Model model = randomNodes(random, dimension, 1);
-  model.energies.push_back(
-      makeAnchoredSpring(dimension, 0, randomVector(random, dimension, 0.2), uniform(random, 0.5, 1), randomLaw(random)));
+  model.energies.push_back(makeAnchoredSpring(
+      dimension, 0, randomVector(random, dimension, 0.2), uniform(random, 0.5, 1), randomLaw(random)));
   model.finish();
   return model;
 }
 
 Model groundedSpringExample(std::mt19937& random, int dimension) {
   Model model = randomNodes(random, dimension, 1);
-  model.energies.push_back(makeGroundedSpring(dimension, 0, model.restPositions,
-                                              randomVector(random, dimension, 1).normalized(), randomLaw(random)));
+  model.energies.push_back(makeGroundedSpring(
+      dimension, 0, model.restPositions, randomVector(random, dimension, 1).normalized(), randomLaw(random)));
   model.finish();
   return model;
 }

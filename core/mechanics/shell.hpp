@@ -26,8 +26,8 @@ std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPosi
 /// with the rest length |e| of the edge, the rest areas of its two triangles, and the rest angle θ₀ (flat or curved).
 /// The factor ½ D makes a strip that is rolled up along its edges, and an equilateral mesh that is rolled up in any
 /// direction, store D κ²/2 an area (Seung & Nelson 1988 for the latter). A dihedral angle knows no Poisson effect of
-/// its own: bent to a saddle or a dome, an equilateral mesh behaves like a plate with ν = -1/3, a right-angled grid like
-/// one with ν = 0, whatever the material's ν; on irregular meshes the energy depends on the mesh's directions.
+/// its own: bent to a saddle or a dome, an equilateral mesh behaves like a plate with ν = -1/3, a right-angled grid
+/// like one with ν = 0, whatever the material's ν; on irregular meshes the energy depends on the mesh's directions.
 /// Null if there is no interior edge. Throws base::InputError.
 std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, const Triangles& triangles,
                                                const ShellMaterial& material);

@@ -12,8 +12,8 @@ using math::Packet;
 
 double inverseOrZero(double value) { return value > 0 ? 1 / value : 0; }
 Packet inverseOrZero(const Packet& value) {
-  const Packet inverse = 1.0 / value;
-  return Packet(value.lanes > 0 ? inverse.lanes : Packet().lanes);
+  return Packet::map(
+      [](const Packet::Register& p) -> Packet::Register { return p > 0.0 ? 1.0 / p : Packet::Register{}; }, value);
 }
 
 /// Energy, force and stiffness of a spring law at the elongation `e`, and force / e.
@@ -33,9 +33,9 @@ struct LawValue {
   }
 };
 
-/// Derivatives of E(|r| - restLength) by r: the gradient f n, and the symmetric Hessian f' n nᵀ + f/|r| (I - n nᵀ) packed.
-/// Where |r| = 0 the direction n is undefined: force and stiffness are zero there, but for restLength = 0, where both
-/// have limits.
+/// Derivatives of E(|r| - restLength) by r: the gradient f n, and the symmetric Hessian f' n nᵀ + f/|r| (I - n nᵀ)
+/// packed. Where |r| = 0 the direction n is undefined: force and stiffness are zero there, but for restLength = 0,
+/// where both have limits.
 template <class T, int dimension>
 T evaluateDistance(const SpringLaw& law, double restLength, const std::array<T, dimension>& r,
                    std::array<T, dimension>& gradient, std::array<T, packedSize(dimension)>& hessian) {
@@ -170,8 +170,8 @@ std::shared_ptr<const Energy> springBetween(int nodeA, int nodeB, double restLen
 
 template <int dimension>
 std::shared_ptr<const Energy> springToAnchor(int node, const Vector& anchor, double restLength, const SpringLaw& law) {
-  return single(AnchoredSpringElement<dimension>{law, restLength, toArray<dimension>(anchor)},
-                coordinatesOf<dimension>(node));
+  return single(
+      AnchoredSpringElement<dimension>{law, restLength, toArray<dimension>(anchor)}, coordinatesOf<dimension>(node));
 }
 
 template <int dimension>
@@ -209,8 +209,8 @@ std::shared_ptr<const Energy> makeGroundedSpring(int dimension, int node, const 
   requireVector(rest, dimension, "a spring's rest position");
   requireVector(direction, dimension, "a spring's direction");
   if (std::abs(direction.norm() - 1) > 1e-6)
-    throw base::InputError("", "a grounded spring's direction must have length 1, but has length " +
-                                   std::to_string(direction.norm()));
+    throw base::InputError(
+        "", "a grounded spring's direction must have length 1, but has length " + std::to_string(direction.norm()));
   return dimension == 1   ? springToGround<1>(node, rest, direction, law)
          : dimension == 2 ? springToGround<2>(node, rest, direction, law)
                           : springToGround<3>(node, rest, direction, law);

@@ -1,8 +1,8 @@
+#include <assimp/scene.h>
 #include <QFile>
 #include <QTemporaryDir>
 #include <QtTest>
 #include <assimp/Importer.hpp>
-#include <assimp/scene.h>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -81,15 +81,17 @@ void TestMeshFiles::textFilesAreRead_data() {
   QTest::addColumn<QByteArray>("content");
   QTest::addColumn<int>("triangles");
   QTest::newRow("stl") << "a.stl"
-                       << QByteArray("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
-                                     "vertex 0 2 0\nendloop\nendfacet\nendsolid a\n")
+                       << QByteArray(
+                              "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                              "vertex 0 2 0\nendloop\nendfacet\nendsolid a\n")
                        << 1;
   QTest::newRow("obj, a quadrilateral and a stray point")
       << "a.obj" << QByteArray("v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 9 9 9\nf 1 2 3 4\n") << 2;
   QTest::newRow("ply") << "a.ply"
-                       << QByteArray("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
-                                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                     "end_header\n0 0 0\n1 0 0\n0 2 0\n9 9 9\n3 0 1 2\n")
+                       << QByteArray(
+                              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                              "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                              "end_header\n0 0 0\n1 0 0\n0 2 0\n9 9 9\n3 0 1 2\n")
                        << 1;
 }
 
@@ -113,11 +115,12 @@ void TestMeshFiles::badFilesAreRefused_data() {
   QTest::newRow("points alone") << "d.obj" << QByteArray("v 0 0 0\nv 1 0 0\n");
   QTest::newRow("unknown format") << "e.docx" << QByteArray("v 0 0 0\nv 1 0 0\n");
   QTest::newRow("no faces in STL") << "f.stl" << QByteArray("solid a\nendsolid a\n");
-  QTest::newRow("index out of range") << "g.ply"
-                                      << QByteArray(
-                                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
-                                             "y\nproperty float z\nelement face 1\nproperty list uchar int "
-                                             "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 2 0\n3 0 1 77\n");
+  QTest::newRow("index out of range")
+      << "g.ply"
+      << QByteArray(
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+             "y\nproperty float z\nelement face 1\nproperty list uchar int "
+             "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 2 0\n3 0 1 77\n");
 }
 
 void TestMeshFiles::badFilesAreRefused() {

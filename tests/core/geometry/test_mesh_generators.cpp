@@ -23,7 +23,8 @@ double smallestAngle(const SurfaceMesh& mesh) {
   for (const auto& triangle : mesh.triangles)
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d p = mesh.points.col(triangle[i]);
-      const Eigen::Vector3d u = mesh.points.col(triangle[(i + 1) % 3]) - p, v = mesh.points.col(triangle[(i + 2) % 3]) - p;
+      const Eigen::Vector3d u = mesh.points.col(triangle[(i + 1) % 3]) - p,
+                            v = mesh.points.col(triangle[(i + 2) % 3]) - p;
       smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)));
     }
   return smallest;

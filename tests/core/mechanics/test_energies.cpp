@@ -115,7 +115,8 @@ void TestEnergies::rigidMotionsChangeNothing() {
     const int dimension = model->dimension;
     const Vector x = randomShape(*model, random);
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    turn = Eigen::AngleAxisd(1.234, dimension == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 0.5).normalized());
+    turn =
+        Eigen::AngleAxisd(1.234, dimension == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 0.5).normalized());
     const Matrix rotation = turn.topLeftCorner(dimension, dimension);
     const Vector shift = Vector::LinSpaced(dimension, 0.7, -0.4);
     const Matrix points = x.reshaped(dimension, model->nodeCount());
