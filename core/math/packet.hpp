@@ -107,13 +107,21 @@ template <>
 inline constexpr int laneCount<Packet> = Packet::width;
 
 inline void load(const double* from, double& to) { to = *from; }
-inline void load(const double* from, Packet& to) { std::memcpy(&to.registers, from, sizeof(to.registers)); }
+inline void load(const double* from, Packet& to) {
+  for (int i = 0; i < Packet::registerCount; ++i)  // register by register, as copying one goes
+    std::memcpy(&to.registers[i], from + i * Packet::lanes, sizeof(Packet::Register));
+}
+
+inline void store(double* to, const Packet& value) {
+  for (int i = 0; i < Packet::registerCount; ++i)
+    std::memcpy(to + i * Packet::lanes, &value.registers[i], sizeof(Packet::Register));
+}
+
 inline void addTo(double* to, double value) { *to += value; }
 inline void addTo(double* to, const Packet& value) {
   Packet sum;
   load(to, sum);
-  sum += value;
-  std::memcpy(to, &sum.registers, sizeof(sum.registers));
+  store(to, sum + value);
 }
 
 }  // namespace pliant::math
