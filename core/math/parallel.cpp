@@ -26,8 +26,10 @@ void parallelFor(int count, const std::function<void(int)>& body) {
     for (int i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::this_task_arena::isolate(
-      [&] { tbb::parallel_for(0, count, [&](int i) { body(i); }, tbb::simple_partitioner()); });
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        0, count, [&](int i) { body(i); }, tbb::simple_partitioner());
+  });
 }
 
 void setThreadCount(int threads) {
@@ -35,8 +37,8 @@ void setThreadCount(int threads) {
   const std::lock_guard lock(limitMutex);
   limit.reset();
   if (threads > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                  static_cast<std::size_t>(threads));
+    limit = std::make_unique<tbb::global_control>(
+        tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   limitedThreads = threads;
 }

@@ -1,37 +1,45 @@
 #include "core/math/sparse_factorization.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
+#include "core/math/block_pattern.hpp"
+#include "core/math/dense_kernels.hpp"
 #include "core/math/parallel.hpp"
+#include "core/math/residual.hpp"
+#include "core/math/supernodal_factorization.hpp"
 #include "core/math/umfpack_factorization.hpp"
 
 namespace pliant::math {
 
 namespace {
 
-/// Below this ratio of pivots the condition number is estimated; above it the matrix counts as regular.
-constexpr double suspiciousPivotRatio = 1e-9;
+/// Above this ratio of the smallest pivot to the largest, and below this growth of the errors, factors are trusted.
+constexpr double safePivotRatio = 1e-9;
+constexpr double safeMultiplier = 1e5;
 
-/// OpenBLAS sums in another order with each number of threads. Our parallelism lies above it (parallelFor), so it is
-/// held to one, for the whole process, before the first factorisation.
-void useOneBlasThread() {
-  static const bool done = [] {
-    openblas_set_num_threads(1);
-    return true;
-  }();
-  (void)done;
-}
-
-bool samePattern(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.cols() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+/// Copies `from` to `to` if they have the same pattern.
+bool copyValues(const SparseMatrix& from, SparseMatrix& to) {
+  if (!from.isCompressed() || from.rows() != to.rows() || from.nonZeros() != to.nonZeros() ||
+      !std::equal(from.outerIndexPtr(), from.outerIndexPtr() + from.cols() + 1, to.outerIndexPtr())) {
+    return false;
+  }
+  constexpr Eigen::Index chunk = 1 << 17;
+  const Eigen::Index entries = from.nonZeros();
+  std::atomic<bool> same{true};
+  parallelFor(static_cast<int>((entries + chunk - 1) / chunk), [&](int i) {
+    const Eigen::Index begin = i * chunk;
+    const Eigen::Index count = std::min(chunk, entries - begin);
+    const int* rows = from.innerIndexPtr() + begin;
+    if (!std::equal(rows, rows + count, to.innerIndexPtr() + begin)) same = false;
+    std::copy_n(from.valuePtr() + begin, count, to.valuePtr() + begin);
+  });
+  return same;
 }
 
 /// Estimates ‖B‖₁ of a square operator from a few products with B and Bᵀ (Hager 1984).
@@ -57,23 +65,72 @@ double estimateNorm(Eigen::Index size, const Product& product, const TransposedP
 
 struct SparseFactorization::Implementation {
   SparseMatrix matrix;
-  UmfpackFactorization umfpack;
-  bool analyzed = false;
+  std::optional<BlockPattern> pattern;  ///< of `matrix`, once analysed
+  std::optional<SupernodalFactorization> blocks;
+  std::optional<UmfpackFactorization> umfpack;
+  bool usesBlocks = false;
   bool regular = false;
 
-  Eigen::MatrixXd solveOnce(const Eigen::MatrixXd& b, bool transposed) const {
-    Eigen::MatrixXd x(b.rows(), b.cols());
+  void solveOnce(bool transposed, const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const {
+    if (usesBlocks) {
+      blocks->solve(transposed, b, x);
+      return;
+    }
+    x.resize(b.rows(), b.cols());
     parallelFor(static_cast<int>(b.cols()),
-                [&](int column) { umfpack.solve(matrix, transposed, b.col(column).data(), x.col(column).data()); });
+                [&](int column) { umfpack->solve(matrix, transposed, b.col(column).data(), x.col(column).data()); });
+  }
+
+  Eigen::MatrixXd solve(bool transposed, const Eigen::MatrixXd& b) const {
+    constexpr int mostSteps = 5;
+    Eigen::MatrixXd x;
+    Eigen::MatrixXd correction;
+    solveOnce(transposed, b, x);
+    for (int step = 0; step < mostSteps; ++step) {
+      solveOnce(transposed, residual(matrix, *pattern, transposed, x, b), correction);
+      x += correction;
+      // Each step gains about as many digits as this one did.
+      if (!(correction.lpNorm<Eigen::Infinity>() > 1e-8 * x.lpNorm<Eigen::Infinity>())) break;
+    }
     return x;
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& b, bool transposed) const {
-    assert(regular && b.rows() == matrix.rows());
-    Eigen::MatrixXd x = solveOnce(b, transposed);
-    const Eigen::MatrixXd residual = transposed ? (b - matrix.transpose() * x).eval() : (b - matrix * x).eval();
-    x += solveOnce(residual, transposed);
-    return x;
+  double backwardError(const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) const {
+    const double matrixNorm = (matrix.cwiseAbs() * Eigen::VectorXd::Ones(matrix.cols())).maxCoeff();
+    const Eigen::MatrixXd difference = residual(matrix, *pattern, false, x, b);
+    double largest = 0;
+    for (Eigen::Index j = 0; j < b.cols(); ++j) {
+      const double error = difference.col(j).lpNorm<Eigen::Infinity>();
+      const double scale = matrixNorm * x.col(j).lpNorm<Eigen::Infinity>() + b.col(j).lpNorm<Eigen::Infinity>();
+      if (!(error <= largest * scale)) largest = error / scale;
+    }
+    return largest;
+  }
+
+  /// The blocks' factors, or else UMFPACK's, and whether the matrix is regular.
+  bool factorize() {
+    double pivotRatio = 0;
+    usesBlocks = blocks.has_value();
+    if (usesBlocks) {
+      pivotRatio = blocks->factorize(matrix.valuePtr());
+      usesBlocks = pivotRatio > 0 && ((pivotRatio > safePivotRatio && blocks->largestMultiplier() < safeMultiplier) ||
+                                      solvesAccurately());
+    }
+    if (!usesBlocks) {
+      const Eigen::Map<const Eigen::ArrayXd> values(matrix.valuePtr(), matrix.nonZeros());
+      if (values.size() == 0 || !values.isFinite().all()) return false;
+      if (!umfpack) umfpack.emplace(matrix);
+      pivotRatio = umfpack->factorize(matrix);
+    }
+    return pivotRatio > safePivotRatio ||
+           (pivotRatio > 0 && estimateCondition() < 1 / std::numeric_limits<double>::epsilon());
+  }
+
+  /// Whether the factors solve one arbitrary system up to rounding.
+  bool solvesAccurately() const {
+    Eigen::VectorXd b(matrix.rows());
+    for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = std::sin(static_cast<double>(i) + 1);
+    return backwardError(solve(false, b), b) < 1e-14;
   }
 
   /// ‖S‖₁ ‖S⁻¹‖₁ with S = R A C, where R and C scale every row and column to a largest entry of about 1 (Ruiz 2001).
@@ -102,10 +159,14 @@ struct SparseFactorization::Implementation {
     const double inverseNorm = estimateNorm(
         n,
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          return solveOnce((x.array() / rowScale).matrix(), false).array() / columnScale;
+          Eigen::MatrixXd y;
+          solveOnce(false, (x.array() / rowScale).matrix(), y);
+          return y.col(0).array() / columnScale;
         },
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          return solveOnce((x.array() / columnScale).matrix(), true).array() / rowScale;
+          Eigen::MatrixXd y;
+          solveOnce(true, (x.array() / columnScale).matrix(), y);
+          return y.col(0).array() / rowScale;
         });
     return columnSums.maxCoeff() * inverseNorm;
   }
@@ -120,45 +181,46 @@ bool SparseFactorization::factorize(const SparseMatrix& matrix) {
   if (matrix.rows() != matrix.cols()) throw std::invalid_argument("only a square matrix has an LU factorisation");
   Implementation& self = *implementation_;
   self.regular = false;
-  if (matrix.isCompressed() && self.analyzed && samePattern(matrix, self.matrix)) {
-    std::copy_n(matrix.valuePtr(), matrix.nonZeros(), self.matrix.valuePtr());
-  } else {
+  if (!self.pattern || !copyValues(matrix, self.matrix)) {
     self.matrix = matrix;
     self.matrix.makeCompressed();
-    self.analyzed = false;
+    self.pattern.emplace(self.matrix);
+    self.blocks.reset();
+    self.umfpack.reset();
+    if (SupernodalFactorization::suits(*self.pattern)) self.blocks.emplace(self.matrix, *self.pattern);
   }
-  const Eigen::Map<const Eigen::ArrayXd> values(self.matrix.valuePtr(), self.matrix.nonZeros());
-  if (values.size() == 0 || !values.isFinite().all()) return false;
-  if (!self.analyzed) self.umfpack.analyze(self.matrix);
-  self.analyzed = true;
-  const double pivotRatio = self.umfpack.factorize(self.matrix);
-  self.regular = pivotRatio > suspiciousPivotRatio ||
-                 (pivotRatio > 0 && self.estimateCondition() < 1 / std::numeric_limits<double>::epsilon());
+  self.regular = self.factorize();
   return self.regular;
 }
 
-Eigen::MatrixXd SparseFactorization::solve(const Eigen::MatrixXd& b) const { return implementation_->solve(b, false); }
+Eigen::MatrixXd SparseFactorization::solve(const Eigen::MatrixXd& b) const {
+  assert(implementation_->regular && b.rows() == implementation_->matrix.rows());
+  return implementation_->solve(false, b);
+}
 
 Eigen::MatrixXd SparseFactorization::solveTransposed(const Eigen::MatrixXd& b) const {
-  return implementation_->solve(b, true);
+  assert(implementation_->regular && b.rows() == implementation_->matrix.rows());
+  return implementation_->solve(true, b);
 }
 
 double SparseFactorization::backwardError(const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) const {
-  const SparseMatrix& matrix = implementation_->matrix;
-  const double matrixNorm = (matrix.cwiseAbs() * Eigen::VectorXd::Ones(matrix.cols())).maxCoeff();
-  const Eigen::MatrixXd residual = b - matrix * x;
-  double largest = 0;
-  for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    const double scale = matrixNorm * x.col(j).lpNorm<Eigen::Infinity>() + b.col(j).lpNorm<Eigen::Infinity>();
-    if (scale > 0) largest = std::max(largest, residual.col(j).lpNorm<Eigen::Infinity>() / scale);
-  }
-  return largest;
+  return implementation_->backwardError(x, b);
 }
 
 int SparseFactorization::determinantSign() const {
-  return implementation_->regular ? implementation_->umfpack.determinantSign() : 0;
+  const Implementation& self = *implementation_;
+  if (!self.regular) return 0;
+  return self.usesBlocks ? self.blocks->determinantSign() : self.umfpack->determinantSign();
 }
-double SparseFactorization::factorEntries() const { return implementation_->umfpack.factorEntries(); }
-double SparseFactorization::flops() const { return implementation_->umfpack.flops(); }
+
+double SparseFactorization::factorEntries() const {
+  const Implementation& self = *implementation_;
+  return self.usesBlocks ? self.blocks->factorEntries() : self.umfpack ? self.umfpack->factorEntries() : 0;
+}
+
+double SparseFactorization::flops() const {
+  const Implementation& self = *implementation_;
+  return self.usesBlocks ? self.blocks->flops() : self.umfpack ? self.umfpack->flops() : 0;
+}
 
 }  // namespace pliant::math

@@ -9,7 +9,11 @@ namespace pliant::math {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// LU of a square sparse matrix. The symbolic analysis is kept and reused as long as the pattern stays the same.
-/// Different objects may be used from different threads at once; so may the const members of one object.
+///
+/// Matrices made of dense blocks, such as the Jacobians of harmonic balance (bordered or not), are factorised by our
+/// own supernodal method on all threads (SupernodalFactorization); others, and those whose pivot blocks turn out to be
+/// singular, by UMFPACK. The bytes of the results do not depend on the number of threads. Different objects may be used
+/// from different threads at once; so may the const members of one object.
 class SparseFactorization {
  public:
   SparseFactorization();
@@ -22,8 +26,8 @@ class SparseFactorization {
   /// not square.
   bool factorize(const SparseMatrix& matrix);
 
-  /// Solves A x = b, or Aᵀ x = b, for the matrix last factorised, with one step of refinement. `b` is n x m.
-  /// Only after factorize() returned true.
+  /// Solves A x = b, or Aᵀ x = b, for the matrix last factorised, with iterative refinement: one step, and more only if
+  /// that one found an error above half the digits. `b` is n x m. Only after factorize() returned true.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   Eigen::MatrixXd solveTransposed(const Eigen::MatrixXd& b) const;
 

@@ -25,9 +25,7 @@ void check(int status) {
 
 }  // namespace
 
-void UmfpackFactorization::analyze(const Eigen::SparseMatrix<double>& matrix) {
-  numeric_.reset();
-  symbolic_.reset();
+UmfpackFactorization::UmfpackFactorization(const Eigen::SparseMatrix<double>& matrix) {
   const auto control = makeControl();
   void* symbolic = nullptr;
   check(umfpack_di_symbolic(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()), matrix.outerIndexPtr(),

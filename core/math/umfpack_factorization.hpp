@@ -10,9 +10,10 @@ namespace pliant::math {
 /// and diagonal pivots are preferred. Holds no global state, so objects may be used from several threads at once.
 class UmfpackFactorization {
  public:
-  /// Forgets the numeric factors and orders the columns anew.
-  void analyze(const Eigen::SparseMatrix<double>& matrix);
-  /// The smallest pivot over the largest, of the matrix with scaled rows; 0 if it is singular. Same pattern as analysed.
+  /// Orders the columns of a compressed matrix with at least one entry.
+  explicit UmfpackFactorization(const Eigen::SparseMatrix<double>& matrix);
+  /// The smallest pivot over the largest, of the matrix with scaled rows; 0 if it is singular. Same pattern as
+  /// analysed.
   double factorize(const Eigen::SparseMatrix<double>& matrix);
   /// x = A⁻¹ b, or A⁻ᵀ b, without refinement.
   void solve(const Eigen::SparseMatrix<double>& matrix, bool transposed, const double* b, double* x) const;

@@ -13,9 +13,12 @@
 
 #include "core/math/parallel.hpp"
 #include "core/math/sparse_factorization.hpp"
+#include "tests/core/math/block_matrices.hpp"
 
 using pliant::math::SparseFactorization;
 using pliant::math::SparseMatrix;
+using pliant::tests::randomMatrix;
+using pliant::tests::relativeDifference;
 
 namespace {
 
@@ -45,16 +48,6 @@ SparseMatrix randomGrid(int side, unsigned seed) {
     }
   }
   return assemble(side * side, entries);
-}
-
-Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(generator); });
-}
-
-double relativeDifference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).norm() / b.norm();
 }
 
 }  // namespace
