@@ -118,6 +118,11 @@ void JobRunner::cancelAll() {
   for (const auto& entry : std::vector(entries_)) cancel(entry->id);
 }
 
+void JobRunner::abandonAll() {
+  for (const auto& entry : entries_) entry->superseded = true;
+  cancelAll();
+}
+
 bool JobRunner::isActive(const QString& topic) const {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const auto& entry) { return entry->job.topic == topic && !entry->superseded; });

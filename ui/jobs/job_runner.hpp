@@ -52,6 +52,8 @@ class JobRunner final : public QObject {
   void cancel(Id id);
   void cancelTopic(const QString& topic);
   void cancelAll();
+  /// Cancels everything, and nothing of it delivers any more: for when the data it was about is gone.
+  void abandonAll();
 
   /// Whether a job of this topic waits or runs.
   bool isActive(const QString& topic) const;

@@ -1,0 +1,251 @@
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+#include <numbers>
+
+#include "ui/plots/response_plot.hpp"
+
+using namespace pliant;
+using document::StudyStatus;
+using harmonic::PointKind;
+using plots::ResponseCurve;
+using plots::ResponsePlace;
+using plots::ResponsePlot;
+
+namespace {
+
+/// The curve of a hardening Duffing oscillator x'' + 2ζx' + x + γx³ = P cos Ωt with one harmonic, which is known in
+/// closed form as Ω(A): up along one side of the backbone and down along the other, with two folds.
+ResponseCurve duffingCurve(int pointsASide = 120) {
+  const double zeta = 0.03, gamma = 0.5, force = 0.1;
+  ResponseCurve curve;
+  curve.name = "mass";
+  std::vector<double> down;
+  const auto frequency = [&](double a, double sign) {
+    const double b = 1 + 0.75 * gamma * a * a;
+    const double c = b - 2 * zeta * zeta;
+    const double root = c * c - (b * b - force * force / (a * a));
+    return root >= 0 ? std::sqrt(c + sign * std::sqrt(root)) : NAN;
+  };
+  double peak = 0.1;
+  for (double a = 0.1; a < 3; a += 1e-4)
+    if (std::isfinite(frequency(a, -1))) peak = a;
+  const double lowest = 0.12;
+  for (const double sign : {-1.0, 1.0})
+    for (int i = 0; i <= pointsASide; ++i) {
+      const double s = sign < 0 ? double(i) / pointsASide : 1 - double(i) / pointsASide;
+      const double a = lowest + (peak - lowest) * std::sin(s * std::numbers::pi / 2);
+      curve.omega.push_back(frequency(a, sign));
+      curve.amplitude.push_back(0.01 * a);  // metres
+    }
+  curve.kinds.assign(curve.omega.size(), PointKind::regular);
+  for (std::size_t i = 1; i + 1 < curve.omega.size(); ++i) {
+    const bool turns = (curve.omega[i] - curve.omega[i - 1]) * (curve.omega[i + 1] - curve.omega[i]) < 0;
+    const bool top = curve.amplitude[i] > curve.amplitude[i - 1] && curve.amplitude[i] >= curve.amplitude[i + 1];
+    if (turns) curve.kinds[i] = PointKind::fold;
+    if (top) curve.kinds[i] = PointKind::peak;
+  }
+  return curve;
+}
+
+ResponseCurve firstPoints(const ResponseCurve& whole, int count) {
+  ResponseCurve part = whole;
+  part.omega.resize(count);
+  part.amplitude.resize(count);
+  part.kinds.resize(count);
+  return part;
+}
+
+}  // namespace
+
+class TestResponsePlot : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void init();
+  void emptyStateOffersTheStudy();
+  void axesKeepStillWhileTheCurveGrows();
+  void aClickOnTheCurveChoosesItsPoint();
+  void aClickBesideTheCurveChoosesNothing();
+  void theCursorSnapsAndRequestsTheFrequency();
+  void statesAreNamed();
+  void theFrequencyUnitChangesNoPlace();
+  void aLargePredictionIsStillSeen();
+  void theWheelZoomsAndADoubleClickShowsAll();
+  void themesDiffer();
+
+ private:
+  QPoint at(const ResponsePlace& place) const { return plot_->positionOf(place).toPoint(); }
+  QWidget* canvas() const { return plot_->childAt(plot_->rect().center()); }
+  QPoint onCanvas(const ResponsePlace& place) const { return canvas()->mapFrom(plot_.get(), at(place)); }
+  void show(const ResponseCurve& curve, StudyStatus status = StudyStatus::solved, bool stale = false);
+
+  std::unique_ptr<ResponsePlot> plot_;
+};
+
+void TestResponsePlot::init() {
+  plot_ = std::make_unique<ResponsePlot>();
+  plot_->resize(960, 320);
+  plot_->setFrequencyRange(0.2, 2.0);
+  plot_->setAmplitudeLabel("Maximum displacement of mass");
+  plot_->show();
+  QVERIFY(QTest::qWaitForWindowExposed(plot_.get()));
+}
+
+void TestResponsePlot::show(const ResponseCurve& curve, StudyStatus status, bool stale) {
+  plot_->setCurves({curve}, 0, status, stale, {});
+  QCoreApplication::processEvents();
+}
+
+void TestResponsePlot::emptyStateOffersTheStudy() {
+  plot_->setEmptyState("The study response fills this plot.", "Run response");
+  QSignalSpy triggered(plot_.get(), &ResponsePlot::emptyActionTriggered);
+  auto* button = plot_->findChild<QPushButton*>("emptyAction");
+  QVERIFY(button && button->isVisible());
+  QCOMPARE(button->text(), QString("Run response"));
+  QTest::mouseClick(button, Qt::LeftButton);
+  QCOMPARE(triggered.count(), 1);
+  show(duffingCurve());
+  QVERIFY(!button->isVisible());
+}
+
+void TestResponsePlot::axesKeepStillWhileTheCurveGrows() {
+  const ResponseCurve whole = duffingCurve();
+  const int count = static_cast<int>(whole.omega.size());
+  int changes = 0;
+  double top = 0;
+  double right = -1;
+  for (int i = 1; i <= count; ++i) {
+    show(firstPoints(whole, i), i < count ? StudyStatus::running : StudyStatus::solved);
+    QVERIFY(plot_->largestAmplitudeShown() >= top);  // it never shrinks under the eye
+    if (plot_->largestAmplitudeShown() > top) ++changes;
+    top = plot_->largestAmplitudeShown();
+    if (right < 0) right = plot_->largestFrequencyShown();
+    QCOMPARE(plot_->largestFrequencyShown(), right);
+  }
+  QCOMPARE(plot_->pointCount(), count);
+  QVERIFY2(changes <= 9, qPrintable(QString::number(changes)));  // the amplitude grew tenfold
+  const double largest = *std::max_element(whole.amplitude.begin(), whole.amplitude.end());
+  QVERIFY(top > largest && top < 3 * largest);
+}
+
+void TestResponsePlot::aClickOnTheCurveChoosesItsPoint() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  QSignalSpy chosen(plot_.get(), &ResponsePlot::pointChosen);
+  for (const int index : {10, 110, 150}) {
+    QTest::mouseClick(canvas(), Qt::LeftButton, {}, onCanvas({curve.omega[index], curve.amplitude[index]}));
+    QCOMPARE(chosen.count(), 1);
+    const int found = chosen.takeFirst()[0].toInt();
+    // Points may lie closer together than pixels.
+    const QPoint apart =
+        at({curve.omega[found], curve.amplitude[found]}) - at({curve.omega[index], curve.amplitude[index]});
+    QVERIFY(apart.manhattanLength() <= 2);
+  }
+}
+
+void TestResponsePlot::aClickBesideTheCurveChoosesNothing() {
+  show(duffingCurve());
+  QSignalSpy chosen(plot_.get(), &ResponsePlot::pointChosen);
+  QTest::mouseClick(canvas(), Qt::LeftButton, {}, onCanvas({0.5, plot_->largestAmplitudeShown() * 0.9}));
+  QCOMPARE(chosen.count(), 0);
+}
+
+void TestResponsePlot::theCursorSnapsAndRequestsTheFrequency() {
+  const ResponseCurve curve = duffingCurve(20);  // sparse: there is room between the points
+  show(curve);
+  plot_->setShownMotion(ResponsePlace{curve.omega[15], curve.amplitude[15]});
+  QSignalSpy chosen(plot_.get(), &ResponsePlot::pointChosen);
+  QSignalSpy requested(plot_.get(), &ResponsePlot::frequencyRequested);
+  connect(plot_.get(), &ResponsePlot::pointChosen, plot_.get(), [&](int i) {
+    plot_->setShownMotion(ResponsePlace{curve.omega[i], curve.amplitude[i]});
+  });
+  const QPoint start = onCanvas({curve.omega[15], 0.5 * curve.amplitude[15]});
+  const double target = 0.6 * curve.omega[1] + 0.4 * curve.omega[2];
+  const QPoint end = onCanvas({target, curve.amplitude[1]});
+  QVERIFY(start.x() - end.x() > 100);
+  QTest::mousePress(canvas(), Qt::LeftButton, {}, start);
+  for (int i = 1; i <= 10; ++i) QTest::mouseMove(canvas(), start + (end - start) * i / 10);
+  QTest::mouseRelease(canvas(), Qt::LeftButton, {}, end);
+  QVERIFY(chosen.count() >= 2);
+  QCOMPARE(chosen.last()[0].toInt(), 1);
+  QCOMPARE(requested.count(), 1);
+  QCOMPARE(requested[0][1].toInt(), 1);
+  const double pixel = (curve.omega[15] - target) / (start.x() - end.x());
+  QVERIFY(std::abs(requested[0][0].toDouble() - target) < 2 * pixel);
+}
+
+void TestResponsePlot::statesAreNamed() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  QCOMPARE(plot_->statusText(), QString());
+  const QImage solved = plot_->grab().toImage();
+  show(curve, StudyStatus::stale, true);
+  QVERIFY(plot_->statusText().contains("Stale"));
+  QVERIFY(plot_->grab().toImage() != solved);
+  show(firstPoints(curve, 100), StudyStatus::cancelled);
+  QVERIFY(plot_->statusText().contains("Cancelled"));
+  show(firstPoints(curve, 100), StudyStatus::failed);
+  QVERIFY(plot_->statusText().contains("Stopped"));
+  show(firstPoints(curve, 100), StudyStatus::running);
+  QVERIFY(plot_->statusText().contains("Tracing"));
+  QSignalSpy update(plot_.get(), &ResponsePlot::updateRequested);
+  show(curve, StudyStatus::stale, true);
+  QTest::mouseClick(plot_->findChild<QPushButton*>("chip"), Qt::LeftButton);
+  QCOMPARE(update.count(), 1);
+}
+
+void TestResponsePlot::theFrequencyUnitChangesNoPlace() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  const QPointF before = plot_->positionOf({curve.omega[50], curve.amplitude[50]});
+  plot_->setHertz(true);
+  const QPointF after = plot_->positionOf({curve.omega[50], curve.amplitude[50]});
+  QVERIFY((before - after).manhattanLength() < 1e-6);
+}
+
+void TestResponsePlot::aLargePredictionIsStillSeen() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  plot_->setShownMotion(ResponsePlace{curve.omega[60], curve.amplitude[60]});
+  plot_->setPrediction(ResponsePlace{curve.omega[60], 5 * plot_->largestAmplitudeShown()});
+  QVERIFY(plot_->largestAmplitudeShown() > plot_->prediction()->amplitude);
+  QVERIFY(plot_->rect().contains(at(*plot_->prediction())));
+}
+
+void TestResponsePlot::theWheelZoomsAndADoubleClickShowsAll() {
+  show(duffingCurve());
+  const double all = plot_->largestFrequencyShown();
+  const QPoint middle = canvas()->rect().center();
+  QWheelEvent wheel(
+      middle, canvas()->mapToGlobal(middle), {}, {0, 240}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+  QCoreApplication::sendEvent(canvas(), &wheel);
+  QVERIFY(plot_->largestFrequencyShown() < all);
+  QTest::mouseDClick(canvas(), Qt::LeftButton, {}, middle);
+  QCOMPARE(plot_->largestFrequencyShown(), all);
+}
+
+void TestResponsePlot::themesDiffer() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  plot_->setShownMotion(ResponsePlace{curve.omega[60], curve.amplitude[60]});
+  plot_->setPrediction(ResponsePlace{curve.omega[60], 1.3 * curve.amplitude[60]});
+  QCoreApplication::processEvents();
+  const QImage light = plot_->grab().toImage();
+  QPalette dark;
+  dark.setColor(QPalette::Base, QColor(30, 32, 36));
+  dark.setColor(QPalette::Text, Qt::white);
+  plot_->setPalette(dark);
+  QCoreApplication::processEvents();
+  const QImage night = plot_->grab().toImage();
+  QVERIFY(qGray(light.pixel(4, 4)) > 200);
+  QVERIFY(qGray(night.pixel(4, 4)) < 60);
+  if (qEnvironmentVariableIsSet("PLIANT_PICTURES")) {
+    light.save(qEnvironmentVariable("PLIANT_PICTURES") + "/plot_light.png");
+    night.save(qEnvironmentVariable("PLIANT_PICTURES") + "/plot_dark.png");
+  }
+}
+
+QTEST_MAIN(TestResponsePlot)
+#include "test_response_plot.moc"

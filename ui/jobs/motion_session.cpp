@@ -1,0 +1,353 @@
+#include "ui/jobs/motion_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/harmonic/amplitude.hpp"
+#include "core/mechanics/design_parameter.hpp"
+
+namespace pliant::jobs {
+
+using document::StudyStatus;
+using harmonic::HarmonicBalanceProblem;
+using harmonic::PeriodicMotion;
+using harmonic::ResponseSensitivity;
+using harmonic::Vector;
+
+namespace {
+
+const QString motionTopic = QStringLiteral("motion");
+const QString sensitivityTopic = QStringLiteral("sensitivity");
+
+std::shared_ptr<const scene::HarmonicResult> harmonicResult(const document::StudyState* study) {
+  return study ? std::dynamic_pointer_cast<const scene::HarmonicResult>(study->result) : nullptr;
+}
+
+/// Whether both scenes pose the same problem but for the values at `pointers`.
+bool sameBut(const scene::Scene& a, const scene::Scene& b, const std::vector<std::string>& pointers) {
+  scene::Scene changed = a;
+  for (const std::string& pointer : pointers) {
+    const scene::Json::json_pointer path(pointer);
+    if (!a.normalized().contains(path) || !b.normalized().contains(path)) return false;
+    if (a.normalized().at(path) != b.normalized().at(path))
+      changed = changed.withValue(pointer, b.normalized().at(path));
+  }
+  return document::sameModel(changed, b);
+}
+
+}  // namespace
+
+double amplitudeOf(const HarmonicBalanceProblem& problem, const Vector& z, int node, AmplitudeMeasure measure) {
+  const harmonic::Amplitude amplitude = harmonic::amplitude(problem, z, node);
+  return measure == AmplitudeMeasure::pathLength ? amplitude.pathLength : amplitude.maximumDisplacement;
+}
+
+MotionSession::MotionSession(document::Document& document, JobRunner& quick, StudyRunner& studies, QObject* parent)
+    : QObject(parent), document_(document), quick_(quick), studies_(studies) {
+  connect(&document_, &document::Document::sceneReplaced, this, &MotionSession::reset);
+  connect(&document_, &document::Document::sceneEdited, this, [this] {
+    if (node_ >= document_.model()->nodeCount()) selectNode(0);
+    refreshStaleness();
+  });
+  connect(&document_, &document::Document::studyChanged, this, &MotionSession::follow);
+  connect(&studies_, &StudyRunner::runningChanged, this, [this] { Q_EMIT busyChanged(isBusy()); });
+  connect(&quick_, &JobRunner::finished, this,
+          [this](JobRunner::Id, const QString& topic, JobOutcome outcome, const QString& sentence) {
+            if (topic != motionTopic && topic != sensitivityTopic) return;
+            if (outcome == JobOutcome::failed) document_.raise(base::Severity::warning, sentence);
+            Q_EMIT busyChanged(isBusy());
+          });
+}
+
+void MotionSession::reset() {
+  quick_.cancelTopic(motionTopic);
+  quick_.cancelTopic(sensitivityTopic);
+  shown_.reset();
+  stale_ = false;
+  comparable_ = false;
+  preview_.reset();
+  prediction_.reset();
+  effects_.clear();
+  followed_.reset();
+  follow_ = false;
+  const auto model = document_.model();
+  node_ = model->probes.empty() ? 0 : model->probes.front().node;
+  Q_EMIT nodeChanged(node_);
+  Q_EMIT shownChanged();
+  Q_EMIT predictionChanged();
+  Q_EMIT effectsChanged();
+}
+
+bool MotionSession::isBusy() const { return studies_.isRunning() || quick_.isActive(motionTopic); }
+
+void MotionSession::run(const std::vector<std::string>& names) {
+  follow_ = true;
+  followed_.reset();
+  studies_.run(names);
+}
+
+void MotionSession::runAll() {
+  follow_ = true;
+  followed_.reset();
+  studies_.runAll();
+}
+
+void MotionSession::cancel() {
+  studies_.cancel();
+  quick_.cancelTopic(motionTopic);
+}
+
+void MotionSession::follow(const std::string& name) {
+  if (!follow_) return;
+  const document::StudyState* study = document_.study(name);
+  const auto result = harmonicResult(study);
+  if (!result || result == followed_ || result->points.empty()) return;
+  if (!result->isCurve) {
+    followed_ = result;
+    showPoint(name, 0);
+    follow_ = true;
+    return;
+  }
+  // A curve alone: its first motion at once, its highest peak when it is done.
+  const bool shownOfCurve = shown_ && shown_->study == name;
+  const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
+  if (!followed_) {
+    followed_ = result;
+    showPoint(name, 0);
+    follow_ = true;
+  } else if (ended && shownOfCurve && shown_->point == 0) {
+    followed_ = result;
+    int best = -1;
+    for (int i = 0; i < static_cast<int>(result->points.size()); ++i) {
+      const auto& point = result->points[i];
+      if (point.kind != harmonic::PointKind::peak) continue;
+      if (best < 0 || amplitudeOf(*result->problem, point.z, node_, measure_) >
+                          amplitudeOf(*result->problem, result->points[best].z, node_, measure_))
+        best = i;
+    }
+    if (best >= 0) showPoint(name, best);
+  }
+}
+
+void MotionSession::showPoint(const std::string& name, int point) {
+  const document::StudyState* study = document_.study(name);
+  const auto result = harmonicResult(study);
+  if (!result || point < 0 || point >= static_cast<int>(result->points.size())) return;
+  follow_ = false;
+  const harmonic::ResponsePoint& found = result->points[point];
+  PeriodicMotion motion;
+  motion.omega = found.omega;
+  motion.z = found.z;
+  motion.report.termination = base::TerminationType::converged;
+  motion.report.iterations.push_back({found.newtonIterations, found.residual, 0});
+  show({result->problem, std::move(motion), *study->solvedScene, result->isCurve ? nullptr : result->sensitivity, name,
+        point});
+}
+
+void MotionSession::show(ShownMotion shown) {
+  shown_ = std::move(shown);
+  Q_EMIT shownChanged();
+  refreshStaleness();
+  if (shown_->sensitivity) {
+    quick_.cancelTopic(sensitivityTopic);
+    refreshEffects();
+  } else {
+    effects_.clear();
+    Q_EMIT effectsChanged();
+    computeSensitivity();
+  }
+}
+
+void MotionSession::computeSensitivity() {
+  if (shown_->problem->model().parameters.empty()) return;
+  Job job;
+  job.topic = sensitivityTopic;
+  job.title = tr("Sensitivity to parameters");
+  job.work = [this, problem = shown_->problem, motion = shown_->motion](base::ExecutionContext& context,
+                                                                        const Publish&) -> Delivery {
+    if (context.cancelRequested()) return {};
+    const HarmonicBalanceProblem own(*problem);
+    const auto sensitivity = std::make_shared<const ResponseSensitivity>(own, motion);
+    return [this, problem, sensitivity] {
+      if (!shown_ || shown_->problem != problem) return;
+      shown_->sensitivity = sensitivity;
+      refreshPrediction();
+      refreshEffects();
+    };
+  };
+  quick_.submit(std::move(job));
+}
+
+void MotionSession::solveAt(double omega, const std::string& name, int nearestPoint) {
+  const document::StudyState* study = document_.study(name);
+  const auto result = harmonicResult(study);
+  if (!result || nearestPoint < 0 || nearestPoint >= static_cast<int>(result->points.size())) return;
+  follow_ = false;
+  Job job;
+  job.topic = motionTopic;
+  job.title = tr("Motion at %1 rad/s").arg(omega, 0, 'g', 4);
+  job.work = [this, omega, result, scene = *study->solvedScene, start = result->points[nearestPoint].z](
+                 base::ExecutionContext& context, const Publish&) -> Delivery {
+    HarmonicBalanceProblem problem(*result->problem);
+    PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, start);
+    if (!motion.report.converged()) {
+      return [this, message = QString::fromStdString(motion.report.message)] {
+        document_.raise(base::Severity::warning, message);
+      };
+    }
+    return [this, result, scene, motion] { show({result->problem, motion, scene, nullptr, {}, -1}); };
+  };
+  quick_.submit(std::move(job));
+  Q_EMIT busyChanged(true);
+}
+
+void MotionSession::update() {
+  if (document_.isEmpty()) return;
+  const auto model = document_.model();
+  if (!shown_ || shown_->problem->model().nodeCount() != model->nodeCount()) {
+    follow_ = true;
+    followed_.reset();
+    studies_.runOutdated();
+    return;
+  }
+  follow_ = false;
+  endPreview();
+  const double predicted = predictedAmplitude().value_or(std::numeric_limits<double>::quiet_NaN());
+  Job job;
+  job.topic = motionTopic;
+  job.title = tr("Update of the motion at %1 rad/s").arg(shown_->motion.omega, 0, 'g', 4);
+  job.work = [this, model, scene = document_.scene(), basis = shown_->problem->basis(), omega = shown_->motion.omega,
+              start = prediction_.value_or(shown_->motion.z), predicted](base::ExecutionContext& context,
+                                                                         const Publish&) -> Delivery {
+    HarmonicBalanceProblem problem(model, basis);
+    const Vector from = start.size() == problem.size() ? start : Vector();
+    PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, from);
+    if (!motion.report.converged()) {
+      return [this, message = QString::fromStdString(motion.report.message)] {
+        document_.raise(base::Severity::warning, message);
+      };
+    }
+    const auto shared = std::make_shared<const HarmonicBalanceProblem>(std::move(problem));
+    return [this, shared, motion, scene, predicted] {
+      show({shared, motion, scene, nullptr, {}, -1});
+      Q_EMIT updated(predicted, shownAmplitude());
+    };
+  };
+  quick_.submit(std::move(job));
+  Q_EMIT busyChanged(true);
+  studies_.cancel();
+  studies_.runOutdated();
+}
+
+void MotionSession::refreshStaleness() {
+  stale_ = shown_ && !document::sameModel(shown_->scene, document_.scene());
+  comparable_ = true;
+  if (stale_) {
+    std::vector<std::string> pointers;
+    for (const auto& parameter : shown_->problem->model().parameters) pointers.push_back(parameter->pointer());
+    comparable_ = shown_->problem->model().nodeCount() == document_.model()->nodeCount() &&
+                  sameBut(shown_->scene, document_.scene(), pointers);
+  }
+  refreshPrediction();
+}
+
+std::optional<Vector> MotionSession::parameterChange() const {
+  const auto& parameters = shown_->problem->model().parameters;
+  Vector change(static_cast<Eigen::Index>(parameters.size()));
+  for (Eigen::Index p = 0; p < change.size(); ++p) {
+    const std::string pointer = parameters[p]->pointer();
+    const double solved = parameters[p]->value(shown_->problem->model());
+    double value = solved;
+    if (preview_ && preview_->first == pointer) {
+      value = preview_->second;
+    } else if (const auto json = document_.valueAt(pointer); json.is_number()) {
+      value = json.get<double>();
+    }
+    change[p] = value - solved;
+  }
+  if (change.isZero(0)) return std::nullopt;
+  return change;
+}
+
+void MotionSession::refreshPrediction() {
+  prediction_.reset();
+  if (shown_ && comparable_ && shown_->sensitivity && shown_->sensitivity->regular())
+    if (const auto change = parameterChange()) prediction_ = shown_->sensitivity->predict(*change);
+  Q_EMIT predictionChanged();
+}
+
+void MotionSession::refreshEffects() {
+  effects_.clear();
+  if (shown_ && shown_->sensitivity && shown_->sensitivity->regular()) {
+    // The slope of the very amplitude that the prediction reports, along the predicted motion.
+    const auto& parameters = shown_->problem->model().parameters;
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const auto column = shown_->sensitivity->derivative().col(static_cast<Eigen::Index>(p));
+      const double size = column.norm();
+      const double step = size > 0 ? 1e-5 * std::max(shown_->motion.z.norm(), 1e-12) / size : 0;
+      double slope = 0;
+      if (step > 0)
+        slope = (amplitudeOf(*shown_->problem, shown_->motion.z + step * column, node_, measure_) -
+                 amplitudeOf(*shown_->problem, shown_->motion.z - step * column, node_, measure_)) /
+                (2 * step);
+      effects_.push_back({parameters[p]->pointer(), slope});
+    }
+  }
+  Q_EMIT effectsChanged();
+}
+
+std::shared_ptr<const mechanics::Model> MotionSession::previewedModel() const {
+  const auto model = document_.model();
+  if (!preview_) return model;
+  for (const auto& parameter : model->parameters)
+    if (parameter->pointer() == preview_->first)
+      return std::make_shared<mechanics::Model>(parameter->withValue(*model, preview_->second));
+  return model;
+}
+
+QString MotionSession::predictionObstacle() const {
+  if (!shown_) return tr("Run a study to see what the parameters do.");
+  if (!comparable_) return tr("More than parameters has changed; update to predict again.");
+  if (shown_->sensitivity && !shown_->sensitivity->regular())
+    return tr("At a fold the motion has no derivative; choose another point of the curve.");
+  return {};
+}
+
+double MotionSession::shownAmplitude() const {
+  return shown_ ? amplitudeOf(*shown_->problem, shown_->motion.z, node_, measure_) : 0.0;
+}
+
+std::optional<double> MotionSession::predictedAmplitude() const {
+  if (!prediction_) return std::nullopt;
+  return amplitudeOf(*shown_->problem, *prediction_, node_, measure_);
+}
+
+void MotionSession::preview(const std::string& pointer, double value) {
+  preview_ = {pointer, value};
+  refreshPrediction();
+}
+
+void MotionSession::endPreview() {
+  if (!preview_) return;
+  preview_.reset();
+  refreshPrediction();
+}
+
+void MotionSession::selectNode(int node) {
+  if (document_.isEmpty() || node < 0 || node >= document_.model()->nodeCount() || node == node_) return;
+  node_ = node;
+  Q_EMIT nodeChanged(node_);
+  Q_EMIT predictionChanged();
+  refreshEffects();
+}
+
+void MotionSession::setMeasure(AmplitudeMeasure measure) {
+  if (measure_ == measure) return;
+  measure_ = measure;
+  Q_EMIT measureChanged();
+  Q_EMIT predictionChanged();
+  refreshEffects();
+}
+
+}  // namespace pliant::jobs

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <QLabel>
+#include <QPushButton>
+#include <QStackedLayout>
+#include <vector>
+
+#include "ui/plots/custom_plot.hpp"
+#include "ui/plots/plot_style.hpp"
+#include "ui/plots/response_plot.hpp"
+
+namespace pliant::plots {
+
+/// A fold or a peak with its text.
+struct Landmark {
+  double omega = 0;
+  double amplitude = 0;
+  bool peak = false;
+  QString text;
+  QCPItemText* label = nullptr;
+};
+
+/// What a ResponsePlot is made of.
+struct ResponsePlot::Parts {
+  QStackedLayout* pages = nullptr;
+  QWidget* emptyPage = nullptr;
+  QLabel* emptyText = nullptr;
+  QPushButton* emptyAction = nullptr;
+  QCustomPlot* plot = nullptr;
+  QPushButton* chip = nullptr;
+
+  QCPCurve* earlier = nullptr;    ///< the curve before this one, grey
+  std::vector<QCPCurve*> others;  ///< of nodes that are not selected
+  QCPCurve* selected = nullptr;
+  QCPCurve* folds = nullptr;
+  QCPCurve* peaks = nullptr;
+  QCPCurve* shown = nullptr;
+  QCPCurve* predicted = nullptr;
+  QCPCurve* step = nullptr;  ///< from the shown motion to the predicted one
+  QCPCurve* hover = nullptr;
+  QCPItemStraightLine* cursor = nullptr;
+  QCPItemText* cursorLabel = nullptr;
+  QCPItemText* predictedLabel = nullptr;
+  QCPItemText* hoverLabel = nullptr;
+  std::vector<Landmark> landmarks;
+
+  PlotStyle style;
+  std::vector<ResponseCurve> curves;
+  int selectedCurve = 0;
+  document::StudyStatus status = document::StudyStatus::none;
+  bool stale = false;
+  QString note;
+  ResponseCurve earlierCurve;
+  QString amplitudeLabel;
+  bool hertz = false;
+  LengthUnit unit{QStringLiteral("mm"), 1e3};
+  double from = 0;
+  double to = 0;
+  double top = 0;       ///< of the amplitude axis when everything is shown [m]
+  bool zoomed = false;  ///< the designer chose what is shown
+  std::optional<ResponsePlace> shownPlace;
+  std::optional<ResponsePlace> predictedPlace;
+
+  bool pressed = false;
+  bool draggingCursor = false;
+  QPointF pressPosition;
+  double cursorOmega = 0;
+  int cursorPoint = -1;
+
+  const ResponseCurve* curve() const {
+    return selectedCurve < static_cast<int>(curves.size()) ? &curves[selectedCurve] : nullptr;
+  }
+};
+
+}  // namespace pliant::plots
