@@ -22,6 +22,7 @@ class Viewport : public QWidget {
   Q_OBJECT
 
  public:
+  /// Throws std::runtime_error if this machine can draw neither by OpenGL nor by Mesa's software renderer.
   explicit Viewport(QWidget* parent = nullptr);
   ~Viewport() override;
 
@@ -67,7 +68,6 @@ class Viewport : public QWidget {
   void playingChanged(bool playing);
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
@@ -86,7 +86,10 @@ class Viewport : public QWidget {
   QTimer timer_;
   QElapsedTimer clock_;
   double speed_ = 0.5;
-  bool fitted_ = false;
+  int nodeCount_ = 0;
+  int dimension_ = 0;
+  bool framed_ = true;         ///< the camera is where fit() or an axis view put it
+  bool motionFramed_ = false;  ///< the present model's motion has been fitted
   bool dragged_ = false;
   QPointF pressPosition_;
   QPointF lastPosition_;

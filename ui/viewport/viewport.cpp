@@ -1,0 +1,233 @@
+#include "ui/viewport/viewport.hpp"
+
+#include <QApplication>
+#include <QEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QVBoxLayout>
+#include <QWheelEvent>
+#include <cmath>
+#include <numbers>
+
+#include "ui/viewport/render_surface.hpp"
+
+namespace pliant::viewport {
+namespace {
+
+constexpr double pickRadius = 12;        // device-independent pixels
+constexpr double wheelNotch = 120;       // eighths of a degree
+constexpr double zoomPerNotch = 1.15;
+constexpr int frameInterval = 16;        // milliseconds
+constexpr double fullTurn = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurface(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(surface_->widget());
+  // Mouse events are the viewport's, whatever the surface.
+  surface_->widget()->setAttribute(Qt::WA_TransparentForMouseEvents);
+  surface_->widget()->setFocusPolicy(Qt::NoFocus);
+  setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("Viewport"));
+  view_.attach(surface_->window());
+  surface_->onResize = [this](double pixelRatio) {
+    view_.setPixelRatio(pixelRatio);
+    if (framed_) view_.fit();
+  };
+  timer_.setInterval(frameInterval);
+  timer_.setTimerType(Qt::PreciseTimer);
+  connect(&timer_, &QTimer::timeout, this, &Viewport::advance);
+  view_.setAxisView(render::AxisView::isometric);
+  applyTheme();
+}
+
+Viewport::~Viewport() {
+  surface_->onResize = nullptr;
+  view_.attach(nullptr);
+}
+
+void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
+  const int nodes = model ? model->nodeCount() : 0;
+  const int dimension = model ? model->dimension : 0;
+  const bool other = nodes != nodeCount_ || dimension != dimension_;
+  nodeCount_ = nodes;
+  dimension_ = dimension;
+  view_.setModel(std::move(model));
+  if (other) {
+    view_.setAxisView(dimension < 3 ? render::AxisView::top : render::AxisView::isometric);
+    framed_ = true;
+    motionFramed_ = false;
+  }
+  redraw();
+}
+
+void Viewport::setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z) {
+  view_.setMotion(std::move(problem), z);
+  // The first motion is brought into view; later ones are compared with it at the same scale.
+  if (framed_ && !motionFramed_) view_.fit();
+  motionFramed_ = true;
+  redraw();
+}
+
+void Viewport::clearMotion() {
+  view_.clearMotion();
+  redraw();
+}
+
+void Viewport::setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel) {
+  view_.setPrediction(z, changedModel);
+  redraw();
+}
+
+void Viewport::clearPrediction() {
+  view_.clearPrediction();
+  redraw();
+}
+
+void Viewport::setStale(bool stale) {
+  view_.setStale(stale);
+  redraw();
+}
+
+void Viewport::setSelectedNode(std::optional<int> node) {
+  view_.setSelectedNode(node);
+  redraw();
+}
+
+void Viewport::setCaption(const QString& text) {
+  view_.setCaption(text.toStdString());
+  redraw();
+}
+
+void Viewport::setFieldVisible(bool visible) {
+  view_.setFieldVisible(visible);
+  redraw();
+}
+
+std::optional<int> Viewport::selectedNode() const { return view_.selectedNode(); }
+
+double Viewport::tau() const { return view_.tau(); }
+
+QString Viewport::surfaceName() const { return surface_->name(); }
+
+QImage Viewport::grabImage() { return surface_->grabImage(); }
+
+QSize Viewport::sizeHint() const { return {720, 480}; }
+
+QSize Viewport::minimumSizeHint() const { return {160, 120}; }
+
+void Viewport::play() {
+  if (isPlaying()) return;
+  clock_.start();
+  timer_.start();
+  Q_EMIT playingChanged(true);
+}
+
+void Viewport::pause() {
+  if (!isPlaying()) return;
+  timer_.stop();
+  Q_EMIT playingChanged(false);
+}
+
+void Viewport::togglePlaying() { isPlaying() ? pause() : play(); }
+
+void Viewport::setTau(double tau) {
+  if (!std::isfinite(tau)) return;
+  double wrapped = std::fmod(tau, fullTurn);
+  if (wrapped < 0) wrapped += fullTurn;
+  if (wrapped == view_.tau()) return;
+  view_.setTau(wrapped);
+  redraw();
+  Q_EMIT tauChanged(wrapped);
+}
+
+void Viewport::setSpeed(double periodsPerSecond) { speed_ = periodsPerSecond; }
+
+void Viewport::fit() {
+  framed_ = true;
+  view_.fit();
+  redraw();
+}
+
+void Viewport::setAxisView(render::AxisView view) {
+  framed_ = true;
+  view_.setAxisView(view);
+  redraw();
+}
+
+void Viewport::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange) applyTheme();
+  QWidget::changeEvent(event);
+}
+
+void Viewport::mousePressEvent(QMouseEvent* event) {
+  pressPosition_ = lastPosition_ = event->position();
+  dragged_ = false;
+}
+
+void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  const bool left = event->buttons() & Qt::LeftButton;
+  const bool middle = event->buttons() & Qt::MiddleButton;
+  if (!left && !middle) return;
+  if (!dragged_ && (event->position() - pressPosition_).manhattanLength() < QApplication::startDragDistance()) return;
+  dragged_ = true;
+  framed_ = false;
+  const QPointF moved = event->position() - lastPosition_;
+  lastPosition_ = event->position();
+  if (middle || (event->modifiers() & Qt::ShiftModifier)) {
+    view_.pan(moved.x() * devicePixelRatioF(), moved.y() * devicePixelRatioF());
+  } else {
+    view_.orbit(moved.x() / height(), moved.y() / height());
+  }
+  redraw();
+}
+
+void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  if (dragged_ || event->button() != Qt::LeftButton) return;
+  const double ratio = devicePixelRatioF();
+  const QPointF place = event->position() * ratio;
+  Q_EMIT nodePicked(view_.pickNode(place.x(), place.y(), pickRadius * ratio).value_or(-1));
+}
+
+void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  dragged_ = true;  // its release is no click
+  fit();
+}
+
+void Viewport::wheelEvent(QWheelEvent* event) {
+  const QPointF place = event->position() * devicePixelRatioF();
+  framed_ = false;
+  view_.zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
+  redraw();
+  event->accept();
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  using render::AxisView;
+  switch (event->key()) {
+    case Qt::Key_Space: togglePlaying(); break;
+    case Qt::Key_F: fit(); break;
+    case Qt::Key_0: setAxisView(AxisView::isometric); break;
+    case Qt::Key_1: setAxisView(AxisView::front); break;
+    case Qt::Key_2: setAxisView(AxisView::back); break;
+    case Qt::Key_3: setAxisView(AxisView::right); break;
+    case Qt::Key_4: setAxisView(AxisView::left); break;
+    case Qt::Key_5: setAxisView(AxisView::top); break;
+    case Qt::Key_6: setAxisView(AxisView::bottom); break;
+    default: QWidget::keyPressEvent(event);
+  }
+}
+
+void Viewport::advance() { setTau(view_.tau() + fullTurn * speed_ * 1e-3 * static_cast<double>(clock_.restart())); }
+
+void Viewport::redraw() { surface_->requestRender(); }
+
+void Viewport::applyTheme() {
+  view_.setTheme(palette().color(QPalette::Window).lightnessF() < 0.5 ? render::Theme::dark : render::Theme::light);
+  redraw();
+}
+
+}  // namespace pliant::viewport
