@@ -131,20 +131,22 @@ void CameraControl::zoom(double factor, double x, double y) {
   updateClipping();
 }
 
-std::optional<int> CameraControl::nearestPoint(const Points& points, double x, double y, double radius) const {
+std::optional<Eigen::Vector2d> CameraControl::pixelOf(const Eigen::Vector3d& point) const {
+  const Eigen::Vector4d clip = projection() * point.homogeneous();
+  if (clip.w() <= 0) return std::nullopt;
   const int* size = renderer_->GetSize();
-  const Eigen::Matrix4d matrix = projection();
+  return Eigen::Vector2d(0.5 * (1.0 + clip.x() / clip.w()) * size[0], 0.5 * (1.0 + clip.y() / clip.w()) * size[1]);
+}
+
+std::optional<int> CameraControl::nearestPoint(const Points& points, double x, double y, double radius) const {
+  const Eigen::Vector2d place(x, renderer_->GetSize()[1] - y);
   std::optional<int> nearest;
-  double least = radius * radius;
+  double least = radius;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector4d clip = matrix * points.col(i).homogeneous();
-    if (clip.w() <= 0) continue;
-    const double dx = 0.5 * (1.0 + clip.x() / clip.w()) * size[0] - x;
-    const double dy = 0.5 * (1.0 - clip.y() / clip.w()) * size[1] - y;
-    if (const double squared = dx * dx + dy * dy; squared <= least) {
-      least = squared;
-      nearest = static_cast<int>(i);
-    }
+    const std::optional<Eigen::Vector2d> pixel = pixelOf(points.col(i));
+    if (!pixel || (*pixel - place).norm() > least) continue;
+    least = (*pixel - place).norm();
+    nearest = static_cast<int>(i);
   }
   return nearest;
 }

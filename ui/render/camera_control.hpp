@@ -8,7 +8,8 @@
 
 namespace pliant::render {
 
-/// Moves the camera of a renderer. Pixels count from the top left of the renderer's window.
+/// Moves the camera of a renderer. Pixels count from the top left of the renderer's window
+/// unless another corner is said.
 class CameraControl {
  public:
   explicit CameraControl(vtkRenderer* renderer);
@@ -23,6 +24,8 @@ class CameraControl {
   void orbit(double dx, double dy);
   void pan(double dx, double dy);
   void zoom(double factor, double x, double y);
+  /// Where a point is seen, from the bottom left of the window; none if it is behind the camera.
+  std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3d& point) const;
   std::optional<int> nearestPoint(const Points& points, double x, double y, double radius) const;
 
  private:

@@ -24,6 +24,10 @@ std::vector<double> nodeMasses(const mechanics::Model& model, double (*massOf)(c
   return masses;
 }
 
+double extentOf(const Points& points) {
+  return points.cols() > 0 ? (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm() : 0.0;
+}
+
 double presentMass(const mechanics::PointMass& mass) { return mass.mass; }
 
 double largestMassOf(const mechanics::PointMass& mass) {
@@ -34,7 +38,8 @@ double largestMassOf(const mechanics::PointMass& mass) {
 
 FigureLayout::FigureLayout(const mechanics::Model& model)
     : dimension(model.dimension), rest(toPoints(model.restPositions, model.dimension)) {
-  size = (rest.rowwise().maxCoeff() - rest.rowwise().minCoeff()).norm();
+  restExtent_ = extentOf(rest);
+  setReach(rest);
   for (const mechanics::DisplayPart& part : model.parts) {
     triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
     springs.insert(springs.end(), part.segments.begin(), part.segments.end());
@@ -69,6 +74,11 @@ FigureLayout::FigureLayout(const mechanics::Model& model)
   if (!largest.empty()) referenceMass_ = std::max(*std::max_element(largest.begin(), largest.end()), 1e-300);
 }
 
+void FigureLayout::setReach(const Points& reach) {
+  const double extent = restExtent_ > 0 ? restExtent_ : 2.0 * extentOf(reach);
+  size = extent > 0 ? extent : 1.0;
+}
+
 Points FigureLayout::pose(const Eigen::VectorXd& positions) const {
   Points result(3, rest.cols() + static_cast<Eigen::Index>(groundedNodes.size()));
   result.leftCols(rest.cols()) = toPoints(positions, dimension);
@@ -96,7 +106,9 @@ Figure::Figure(Kind kind) : kind_(kind), outline_(kind == Kind::ghost ? 2.0 : 1.
   if (kind == Kind::ghost) {
     surface_.setHatched(hatchPeriod);
     surface_.actor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1, -2);
-    masses_.actor()->GetProperty()->SetOpacity(0.55);
+    masses_.actor()->GetProperty()->SetOpacity(0.5);
+    masses_.actor()->GetProperty()->BackfaceCullingOn();
+    masses_.actor()->GetProperty()->LightingOff();
   } else {
     surface_.actor()->GetProperty()->EdgeVisibilityOn();
   }
@@ -143,7 +155,7 @@ void Figure::setTheme(const Palette& palette, bool stale) {
   }
   setColor(surface_.actor(), shown(palette.rest));
   surface_.actor()->GetProperty()->SetEdgeColor(palette.edge[0], palette.edge[1], palette.edge[2]);
-  setColor(outline_.actor(), palette.edge);
+  setColor(outline_.actor(), palette.outline);
   setColor(springs_.actor(), shown(palette.spring));
   setColor(masses_.actor(), shown(palette.mass));
   setColor(driven_.actor(), shown(palette.driven));

@@ -14,6 +14,8 @@ struct FigureLayout {
   FigureLayout() = default;
   explicit FigureLayout(const mechanics::Model& model);
 
+  /// Measures markers of a model without extent (a single mass, say) by what its motion reaches.
+  void setReach(const Points& reach);
   /// Positions of the nodes, and after them the fixed ends of grounded springs.
   Points pose(const Eigen::VectorXd& positions) const;
   /// Radii of `massNodes` for the point masses of `model` [m].
@@ -32,6 +34,7 @@ struct FigureLayout {
   std::vector<int> probeNodes;
 
  private:
+  double restExtent_ = 0;
   double referenceMass_ = 1;
 };
 

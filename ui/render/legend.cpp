@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "ui/render/round_numbers.hpp"
 #include "ui/render/vtk_text.hpp"
 
 namespace pliant::render {
@@ -34,22 +35,6 @@ Scale scaleFor(double largest) {
 }
 
 }  // namespace
-
-std::vector<double> roundNumbers(double minimum, double maximum, int count) {
-  const double span = maximum - minimum;
-  if (!(span > 0) || !std::isfinite(span)) return {minimum};
-  const double rough = span / count;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10 * power;
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough * (1 - 1e-9)) {
-      step = factor * power;
-      break;
-    }
-  std::vector<double> numbers;
-  for (double i = std::ceil(minimum / step - 1e-9); i * step <= maximum + 1e-9 * span; ++i) numbers.push_back(i * step);
-  return numbers;
-}
 
 Legend::Legend() {
   stripMapper_->SetInputData(strip_);

@@ -50,7 +50,4 @@ class Legend {
   std::array<vtkNew<vtkTextActor>, maximumTicks> labels_;
 };
 
-/// Round numbers in [minimum, maximum], about `count` of them: 1, 2 or 5 times a power of ten apart.
-std::vector<double> roundNumbers(double minimum, double maximum, int count);
-
 }  // namespace pliant::render

@@ -15,6 +15,7 @@
 #include "ui/render/figure.hpp"
 #include "ui/render/gizmo.hpp"
 #include "ui/render/legend.hpp"
+#include "ui/render/ring.hpp"
 #include "ui/render/stretch_field.hpp"
 #include "ui/render/vtk_text.hpp"
 
@@ -63,13 +64,14 @@ struct MotionView::Parts {
   LinePrimitive paths{2.5};
   LinePrimitive predictedPaths{2.5};
   DotPrimitive probeDots{8.0};
-  DotPrimitive selectionDot{13.0};
+  Ring selectionRing;
 
   vtkRenderWindow* window = nullptr;
   unsigned long observer = 0;
   Theme theme = Theme::light;
   double ratio = 1;
   double tau = 0;
+  bool fine = true;
   bool stale = false;
   bool fieldVisible = true;
   std::string captionText;
@@ -86,8 +88,6 @@ struct MotionView::Parts {
   Points pose;
 
   Parts() {
-    renderer->SetUseFXAA(true);
-    gizmo.renderer()->SetUseFXAA(true);
     renderer->AutomaticLightCreationOff();
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();
@@ -97,7 +97,8 @@ struct MotionView::Parts {
     solved.addTo(renderer);
     for (vtkActor* actor : {paths.actor(), probeDots.actor()}) renderer->AddActor(actor);
     predicted.addTo(renderer);
-    for (vtkActor* actor : {predictedPaths.actor(), selectionDot.actor()}) renderer->AddActor(actor);
+    renderer->AddActor(predictedPaths.actor());
+    selectionRing.addTo(renderer);
     for (LinePrimitive* lines : {&paths, &predictedPaths})
       lines->actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -6);
     legend.addTo(renderer);
@@ -116,6 +117,7 @@ struct MotionView::Parts {
     const int* size = renderer->GetSize();
     legend.layOut(size[0], size[1]);
     gizmo.follow(renderer->GetActiveCamera(), size[0], size[1]);
+    selectionRing.setPlace(model && selected ? camera.pixelOf(pose.col(*selected)) : std::nullopt);
     const double margin = captionMargin * ratio;
     caption->SetPosition(margin, size[1] - margin);
     double height[2] = {0, 0};
@@ -131,7 +133,7 @@ struct MotionView::Parts {
     setColor(paths.actor(), stale ? faded(colors.trajectory) : colors.trajectory);
     setColor(probeDots.actor(), stale ? faded(colors.trajectory) : colors.trajectory);
     setColor(predictedPaths.actor(), colors.prediction);
-    setColor(selectionDot.actor(), colors.selection);
+    selectionRing.setColors(colors.text, colors.background);
     setViridis(table, leastStretch, mostStretch, stale);
     legend.setTheme(colors);
     gizmo.setTheme(colors);
@@ -166,6 +168,11 @@ struct MotionView::Parts {
       }
     }
     mostStretch = std::max(mostStretch, leastStretch + 1e-12);
+    layout.setReach(reach);
+    for (Figure* figure : {&solved, &predicted}) {
+      figure->setLayout(layout);
+      if (model) figure->setMassRadii(layout, layout.massRadii(*model));
+    }
     if (reach.cols() == 0) reach = Points::Zero(3, 1);
     camera.setReach(std::move(reach));
     legend.setRange(leastStretch, mostStretch);
@@ -195,7 +202,6 @@ struct MotionView::Parts {
     solved.setVisible(model != nullptr);
     predicted.setVisible(problem && prediction);
     probeDots.actor()->SetVisibility(problem != nullptr);
-    selectionDot.actor()->SetVisibility(selected.has_value());
     if (!model) return;
     pose = layout.pose(problem ? problem->configurationAt(z, tau) : model->restPositions);
     solved.setPose(pose);
@@ -203,8 +209,6 @@ struct MotionView::Parts {
     solved.setField(showsField() ? &values : nullptr, table);
     probeDots.setNodes(layout.probeNodes);
     probeDots.setPoints(pose);
-    selectionDot.setNodes(selected ? std::vector<int>{*selected} : std::vector<int>{});
-    selectionDot.setPoints(pose);
     if (problem && prediction) predicted.setPose(layout.pose(problem->configurationAt(*prediction, tau)));
   }
 };
@@ -226,6 +230,7 @@ void MotionView::attach(vtkRenderWindow* window) {
   window->AddRenderer(p.renderer);
   window->AddRenderer(p.gizmo.renderer());
   setPixelRatio(p.ratio);
+  setFineQuality(p.fine);
 }
 
 void MotionView::setModel(std::shared_ptr<const mechanics::Model> model) {
@@ -237,12 +242,6 @@ void MotionView::setModel(std::shared_ptr<const mechanics::Model> model) {
   p.stale = false;
   p.layout = p.model ? FigureLayout(*p.model) : FigureLayout();
   p.stretch = StretchField(p.layout.rest, p.layout.triangles);
-  p.solved.setLayout(p.layout);
-  p.predicted.setLayout(p.layout);
-  if (p.model) {
-    p.solved.setMassRadii(p.layout, p.layout.massRadii(*p.model));
-    p.predicted.setMassRadii(p.layout, p.layout.massRadii(*p.model));
-  }
   p.showMotion();
 }
 
@@ -330,7 +329,8 @@ void MotionView::setPixelRatio(double ratio) {
   p.solved.setPixelRatio(ratio);
   p.predicted.setPixelRatio(ratio);
   for (LinePrimitive* lines : {&p.paths, &p.predictedPaths}) lines->setPixelRatio(ratio);
-  for (DotPrimitive* dots : {&p.probeDots, &p.selectionDot}) dots->setPixelRatio(ratio);
+  p.probeDots.setPixelRatio(ratio);
+  p.selectionRing.setPixelRatio(ratio);
   p.legend.setPixelRatio(ratio);
   p.gizmo.setPixelRatio(ratio);
   p.camera.setRightMargin(p.showsField() ? Legend::width * ratio : 0);
@@ -338,8 +338,7 @@ void MotionView::setPixelRatio(double ratio) {
 
 void MotionView::setFineQuality(bool fine) {
   Parts& p = *parts_;
-  p.renderer->SetUseFXAA(!fine);
-  p.gizmo.renderer()->SetUseFXAA(!fine);
+  p.fine = fine;
   if (p.window) p.window->SetMultiSamples(fine ? fineSamples : 0);
 }
 

@@ -25,7 +25,6 @@ Image renderToImage(const std::shared_ptr<const mechanics::Model>& model,
   {
     MotionView view;
     view.attach(target.window());
-    view.setFineQuality(true);
     view.setTheme(options.theme);
     view.setModel(model);
     if (problem) view.setMotion(problem, z);

@@ -47,8 +47,8 @@ SurfacePrimitive::SurfacePrimitive() {
   actor_->SetMapper(mapper_);
   vtkProperty* property = actor_->GetProperty();
   property->SetInterpolationToFlat();
-  property->SetAmbient(0.45);
-  property->SetDiffuse(0.6);
+  property->SetAmbient(0.55);
+  property->SetDiffuse(0.5);
 }
 
 void SurfacePrimitive::setTopology(const std::vector<std::array<int, 3>>& triangles) {
@@ -75,8 +75,8 @@ void SurfacePrimitive::setHatched(double period) {
       "//VTK::Light::Impl\n"
       "  float stripe = abs(mod(gl_FragCoord.x + gl_FragCoord.y, " + std::to_string(period) + ") - " +
       std::to_string(0.5 * period) + ");\n"
-      "  float coverage = 1.0 - smoothstep(" + std::to_string(0.12 * period) + ", " + std::to_string(0.30 * period) + ", stripe);\n"
-      "  gl_FragData[0].a *= mix(0.16, 0.85, coverage);\n";
+      "  float coverage = 1.0 - smoothstep(" + std::to_string(0.06 * period) + ", " + std::to_string(0.20 * period) + ", stripe);\n"
+      "  gl_FragData[0].a *= mix(0.14, 0.8, coverage);\n";
   actor_->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true, stripes, false);
   actor_->ForceTranslucentOn();
   actor_->GetProperty()->LightingOff();

@@ -12,24 +12,24 @@ constexpr Color rgb(unsigned value) {
 const Palette& palette(Theme theme) {
   static const Palette light{.background = rgb(0xf7f8fa),
                              .text = rgb(0x22262b),
-                             .edge = rgb(0x20242a),
+                             .edge = rgb(0x2a2f36),
+                             .outline = rgb(0x16191d),
                              .rest = rgb(0xb8c0ca),
                              .spring = rgb(0x56606b),
                              .mass = rgb(0x0072b2),
                              .driven = rgb(0xcc79a7),
                              .trajectory = rgb(0x009e73),
-                             .prediction = rgb(0xd55e00),
-                             .selection = rgb(0x111111)};
+                             .prediction = rgb(0xd55e00)};
   static const Palette dark{.background = rgb(0x1e2227),
                             .text = rgb(0xe6e9ed),
-                            .edge = rgb(0x0d0f12),
+                            .edge = rgb(0x15181c),
+                            .outline = rgb(0xaab3bd),
                             .rest = rgb(0x7d8793),
                             .spring = rgb(0x9aa4b0),
                             .mass = rgb(0x56b4e9),
                             .driven = rgb(0xcc79a7),
                             .trajectory = rgb(0x1fc795),
-                            .prediction = rgb(0xe69f00),
-                            .selection = rgb(0xffffff)};
+                            .prediction = rgb(0xe69f00)};
   return theme == Theme::dark ? dark : light;
 }
 

@@ -14,13 +14,13 @@ struct Palette {
   Color background;
   Color text;        ///< contrast with the background at least 4.5 : 1
   Color edge;        ///< of triangles
+  Color outline;     ///< of surfaces
   Color rest;        ///< a surface without a field
   Color spring;
   Color mass;
   Color driven;      ///< driven nodes
   Color trajectory;  ///< solved: green
   Color prediction;  ///< predicted: orange
-  Color selection;
 };
 
 const Palette& palette(Theme theme);

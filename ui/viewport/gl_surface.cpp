@@ -47,6 +47,7 @@ class GlWidget final : public QOpenGLWidget {
   }
 
   WidgetWindow* window() { return window_; }
+  bool drawsInSoftware() const { return drawsInSoftware_; }
   std::function<void(double)> onResized;
 
   void updateSize() {
@@ -69,6 +70,9 @@ class GlWidget final : public QOpenGLWidget {
   void initializeGL() override {
     disconnect(contextConnection_);
     contextConnection_ = connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { releaseGraphics(); });
+    const auto* name = reinterpret_cast<const char*>(context()->functions()->glGetString(GL_RENDERER));
+    const QByteArray renderer(name ? name : "");
+    drawsInSoftware_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") || renderer.contains("SWR");
     window_->OpenGLInitContext();
     window_->SetMapped(1);
     window_->SetReadyForRendering(true);
@@ -107,6 +111,7 @@ class GlWidget final : public QOpenGLWidget {
   QMetaObject::Connection contextConnection_;
   QSize size_;
   double ratio_ = 0;
+  bool drawsInSoftware_ = false;
 };
 
 class GlSurface final : public RenderSurface {
@@ -122,6 +127,7 @@ class GlSurface final : public RenderSurface {
   void requestRender() override { widget_->update(); }
   QImage grabImage() override { return widget_->grabFramebuffer().convertToFormat(QImage::Format_RGB32); }
   QString name() const override { return QStringLiteral("OpenGL"); }
+  bool drawsInSoftware() const override { return widget_->drawsInSoftware(); }
 
  private:
   std::unique_ptr<GlWidget> widget_;

@@ -26,6 +26,8 @@ class RenderSurface {
   virtual QImage grabImage() = 0;
   /// "OpenGL" or "software".
   virtual QString name() const = 0;
+  /// Whether the processor draws, be it through OpenGL: fine pictures then take too long for motion.
+  virtual bool drawsInSoftware() const = 0;
 
   /// Called when the window has got another size, with the pixels per device-independent pixel.
   std::function<void(double pixelRatio)> onResize;

@@ -40,6 +40,7 @@ class SoftSurface final : public RenderSurface {
   }
   QImage grabImage() override { return upToDateImage().copy(); }
   QString name() const override { return QStringLiteral("software"); }
+  bool drawsInSoftware() const override { return true; }
 
  private:
   void updateSize() {

@@ -18,6 +18,7 @@ constexpr double pickRadius = 12;        // device-independent pixels
 constexpr double wheelNotch = 120;       // eighths of a degree
 constexpr double zoomPerNotch = 1.15;
 constexpr int frameInterval = 16;        // milliseconds
+constexpr int settleDelay = 250;          // milliseconds
 constexpr double fullTurn = 2.0 * std::numbers::pi;
 
 }  // namespace
@@ -39,6 +40,9 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   timer_.setInterval(frameInterval);
   timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &Viewport::advance);
+  settleTimer_.setInterval(settleDelay);
+  settleTimer_.setSingleShot(true);
+  connect(&settleTimer_, &QTimer::timeout, this, [this] { redraw(); });
   view_.setAxisView(render::AxisView::isometric);
   applyTheme();
 }
@@ -78,7 +82,7 @@ void Viewport::clearMotion() {
 
 void Viewport::setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel) {
   view_.setPrediction(z, changedModel);
-  redraw();
+  redraw(true);
 }
 
 void Viewport::clearPrediction() {
@@ -112,7 +116,10 @@ double Viewport::tau() const { return view_.tau(); }
 
 QString Viewport::surfaceName() const { return surface_->name(); }
 
-QImage Viewport::grabImage() { return surface_->grabImage(); }
+QImage Viewport::grabImage() {
+  settle();
+  return surface_->grabImage();
+}
 
 QSize Viewport::sizeHint() const { return {720, 480}; }
 
@@ -128,6 +135,7 @@ void Viewport::play() {
 void Viewport::pause() {
   if (!isPlaying()) return;
   timer_.stop();
+  redraw();
   Q_EMIT playingChanged(false);
 }
 
@@ -139,7 +147,7 @@ void Viewport::setTau(double tau) {
   if (wrapped < 0) wrapped += fullTurn;
   if (wrapped == view_.tau()) return;
   view_.setTau(wrapped);
-  redraw();
+  redraw(true);
   Q_EMIT tauChanged(wrapped);
 }
 
@@ -181,7 +189,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   } else {
     view_.orbit(moved.x() / height(), moved.y() / height());
   }
-  redraw();
+  redraw(true);
 }
 
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
@@ -201,7 +209,7 @@ void Viewport::wheelEvent(QWheelEvent* event) {
   const QPointF place = event->position() * devicePixelRatioF();
   framed_ = false;
   view_.zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
-  redraw();
+  redraw(true);
   event->accept();
 }
 
@@ -223,7 +231,20 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
 
 void Viewport::advance() { setTau(view_.tau() + fullTurn * speed_ * 1e-3 * static_cast<double>(clock_.restart())); }
 
-void Viewport::redraw() { surface_->requestRender(); }
+void Viewport::redraw(bool moving) {
+  const bool rough = (moving || isPlaying()) && surface_->drawsInSoftware();
+  view_.setFineQuality(!rough);
+  if (rough) {
+    settleTimer_.start();
+  } else {
+    settleTimer_.stop();
+  }
+  surface_->requestRender();
+}
+
+void Viewport::settle() {
+  if (settleTimer_.isActive()) redraw();
+}
 
 void Viewport::applyTheme() {
   view_.setTheme(palette().color(QPalette::Window).lightnessF() < 0.5 ? render::Theme::dark : render::Theme::light);

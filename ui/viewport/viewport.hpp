@@ -45,7 +45,10 @@ class Viewport : public QWidget {
   /// "OpenGL" or "software".
   QString surfaceName() const;
 
-  /// The picture as it is on the screen, at the screen's resolution.
+  /// While things move, a processor that draws in software leaves edges rough, and smooths them a moment after. This does
+  /// it at once: for pictures.
+  void settle();
+  /// The settled picture at the screen's resolution.
   QImage grabImage();
 
   QSize sizeHint() const override;
@@ -78,12 +81,14 @@ class Viewport : public QWidget {
 
  private:
   void advance();
-  void redraw();
+  /// `moving`: more of the kind is to come soon.
+  void redraw(bool moving = false);
   void applyTheme();
 
   render::MotionView view_;
   std::unique_ptr<RenderSurface> surface_;
   QTimer timer_;
+  QTimer settleTimer_;
   QElapsedTimer clock_;
   double speed_ = 0.5;
   int nodeCount_ = 0;
