@@ -27,6 +27,18 @@ void factorizePanel(int rows, int columns, double* a, int stride, int* swaps) {
   for (int i = 0; i < std::min(rows, columns); ++i) --swaps[i];  // LAPACK counts from 1
 }
 
+/// Calls `body(first column, how many)`. Exchanges in one column wait for one another; those in several do not.
+template <class Body>
+void forColumnGroups(int columns, double* x, int stride, const Body& body) {
+  constexpr int groupColumns = 8;
+  for (int j = 0; j < columns; j += groupColumns) body(at(x, stride, 0, j), std::min(groupColumns, columns - j));
+}
+
+void exchange(double* x, int stride, int columns, int row, int other) {
+  if (row == other) return;
+  for (int j = 0; j < columns; ++j) std::swap(*at(x, stride, row, j), *at(x, stride, other, j));
+}
+
 }  // namespace
 
 void useOneBlasThread() {
@@ -77,17 +89,15 @@ void factorizeDense(int size, double* a, int stride, int* swaps) {
 }
 
 void exchangeRows(int size, const int* swaps, int columns, double* x, int stride) {
-  for (int j = 0; j < columns; ++j) {
-    double* column = at(x, stride, 0, j);
-    for (int i = 0; i < size; ++i) std::swap(column[i], column[swaps[i]]);
-  }
+  forColumnGroups(columns, x, stride, [&](double* group, int width) {
+    for (int i = 0; i < size; ++i) exchange(group, stride, width, i, swaps[i]);
+  });
 }
 
 void exchangeRowsBack(int size, const int* swaps, int columns, double* x, int stride) {
-  for (int j = 0; j < columns; ++j) {
-    double* column = at(x, stride, 0, j);
-    for (int i = size - 1; i >= 0; --i) std::swap(column[i], column[swaps[i]]);
-  }
+  forColumnGroups(columns, x, stride, [&](double* group, int width) {
+    for (int i = size - 1; i >= 0; --i) exchange(group, stride, width, i, swaps[i]);
+  });
 }
 
 void solveTriangle(Triangle triangle, bool transposed, int size, const double* lu, int stride, int columns, double* x,

@@ -47,8 +47,8 @@ SupernodalFactorization::SupernodalFactorization(const Eigen::SparseMatrix<doubl
 
 double SupernodalFactorization::factorize(const double* values) {
   traversal_->childrenFirst(
-      [&](int slots) {
-        if (static_cast<int>(workspaces_.size()) < slots) workspaces_.resize(slots);
+      [&](int slotCount) {
+        if (static_cast<int>(workspaces_.size()) < slotCount) workspaces_.resize(slotCount);
       },
       [&](int node) { eliminate(node, values); });
   double smallest = std::numeric_limits<double>::infinity();

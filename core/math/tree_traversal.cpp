@@ -22,7 +22,7 @@ TreeTraversal::TreeTraversal(const std::vector<int>& parent)
   }
 }
 
-void TreeTraversal::childrenFirst(const std::function<void(int slots)>& prepare,
+void TreeTraversal::childrenFirst(const std::function<void(int slotCount)>& prepare,
                                   const std::function<void(int node)>& visit) const {
   const int count = static_cast<int>(parent_.size());
   std::vector<std::atomic<int>> waiting(parent_.size());

@@ -12,7 +12,8 @@ class TreeTraversal {
   explicit TreeTraversal(const std::vector<int>& parent);
 
   /// Spread over as many threads as setThreadCount allows. `prepare` is called first, with the number of slots.
-  void childrenFirst(const std::function<void(int slots)>& prepare, const std::function<void(int node)>& visit) const;
+  void childrenFirst(const std::function<void(int slotCount)>& prepare,
+                     const std::function<void(int node)>& visit) const;
   void parentsFirst(const std::function<void(int node)>& visit) const;
 
   /// Within a visit, and within a parallelFor of it: a number below the number of slots that no other thread at work
