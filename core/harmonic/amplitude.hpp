@@ -4,16 +4,17 @@
 
 namespace pliant::harmonic {
 
-/// How far a node swings in one period.
+/// How far a node swings in one period. Both numbers belong to the trigonometric polynomial itself, not to samples of
+/// it: a polygon of 64 samples is up to 0.1 % short by an amount that changes with the phase, which would move the
+/// resonance peaks of a response curve and add false ones.
 struct Amplitude {
-  double pathLength = 0;           ///< length of the closed polygon of N samples (2.3.14) [m]
-  double maximumDisplacement = 0;  ///< largest distance from the mean position over the samples [m]
+  double pathLength = 0;           ///< ∫ ‖dx/dτ‖ dτ over a period (2.3.14) [m]
+  double maximumDisplacement = 0;  ///< largest distance from the mean position [m]
 };
 
 Amplitude amplitude(const HarmonicBalanceProblem& problem, const Vector& z, int node);
 
-/// Derivative of the path length by z, of the very polygon that `amplitude` measures (size()); segments of zero length
-/// contribute nothing.
+/// Derivative of the path length by z (size()); instants of zero speed contribute nothing.
 Vector pathLengthGradient(const HarmonicBalanceProblem& problem, const Vector& z, int node);
 
 }  // namespace pliant::harmonic
