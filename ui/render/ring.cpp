@@ -11,7 +11,10 @@ constexpr double radius = 9, lineWidth = 2, haloWidth = 5;  // device-independen
 
 }  // namespace
 
-Ring::Ring() { setPixelRatio(1.0); }
+Ring::Ring() {
+  line_->SetLayerNumber(1);
+  setPixelRatio(1.0);
+}
 
 void Ring::addTo(vtkRenderer* renderer) {
   renderer->AddActor2D(halo_);
@@ -28,9 +31,9 @@ void Ring::setPixelRatio(double ratio) {
   circle->SetNumberOfSides(48);
   circle->SetRadius(radius * ratio);
   circle->GeneratePolygonOff();
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputConnection(circle->GetOutputPort());
   for (auto [actor, width] : {std::pair{halo_.Get(), haloWidth}, std::pair{line_.Get(), lineWidth}}) {
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputConnection(circle->GetOutputPort());
     actor->SetMapper(mapper);
     actor->GetProperty()->SetLineWidth(static_cast<float>(width * ratio));
   }
