@@ -1,48 +1,45 @@
 #include "ui/render/ring.hpp"
 
+#include <vtkDiskSource.h>
 #include <vtkPolyDataMapper2D.h>
 #include <vtkProperty2D.h>
-#include <vtkRegularPolygonSource.h>
 
 namespace pliant::render {
 namespace {
 
-constexpr double radius = 9, lineWidth = 2, haloWidth = 5;  // device-independent pixels
+constexpr std::array<double, 4> radii{6.5, 8.0, 10.0, 11.5};  // of the bands' edges, device-independent pixels
 
 }  // namespace
 
-Ring::Ring() {
-  line_->SetLayerNumber(1);
-  setPixelRatio(1.0);
-}
+Ring::Ring() { setPixelRatio(1.0); }
 
 void Ring::addTo(vtkRenderer* renderer) {
-  renderer->AddActor2D(halo_);
-  renderer->AddActor2D(line_);
+  for (auto& band : bands_) renderer->AddActor2D(band);
 }
 
 void Ring::setColors(const Color& line, const Color& halo) {
-  line_->GetProperty()->SetColor(line[0], line[1], line[2]);
-  halo_->GetProperty()->SetColor(halo[0], halo[1], halo[2]);
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    const Color& color = i == 1 ? line : halo;
+    bands_[i]->GetProperty()->SetColor(color[0], color[1], color[2]);
+  }
 }
 
 void Ring::setPixelRatio(double ratio) {
-  vtkNew<vtkRegularPolygonSource> circle;
-  circle->SetNumberOfSides(48);
-  circle->SetRadius(radius * ratio);
-  circle->GeneratePolygonOff();
-  for (auto [actor, width] : {std::pair{halo_.Get(), haloWidth}, std::pair{line_.Get(), lineWidth}}) {
+  for (std::size_t i = 0; i < bands_.size(); ++i) {
+    vtkNew<vtkDiskSource> disk;
+    disk->SetInnerRadius(radii[i] * ratio);
+    disk->SetOuterRadius(radii[i + 1] * ratio);
+    disk->SetCircumferentialResolution(48);
     vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputConnection(circle->GetOutputPort());
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetLineWidth(static_cast<float>(width * ratio));
+    mapper->SetInputConnection(disk->GetOutputPort());
+    bands_[i]->SetMapper(mapper);
   }
 }
 
 void Ring::setPlace(const std::optional<Eigen::Vector2d>& pixel) {
-  for (vtkActor2D* actor : {halo_.Get(), line_.Get()}) {
-    actor->SetVisibility(pixel.has_value());
-    if (pixel) actor->SetPosition(pixel->x(), pixel->y());
+  for (auto& band : bands_) {
+    band->SetVisibility(pixel.has_value());
+    if (pixel) band->SetPosition(pixel->x(), pixel->y());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vtkRenderer.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "ui/render/theme.hpp"
@@ -22,8 +23,8 @@ class Ring {
   void setPlace(const std::optional<Eigen::Vector2d>& pixel);
 
  private:
-  vtkNew<vtkActor2D> halo_;
-  vtkNew<vtkActor2D> line_;
+  // Side by side, since what is drawn over the window lies at one depth: halo, line, halo.
+  std::array<vtkNew<vtkActor2D>, 3> bands_;
 };
 
 }  // namespace pliant::render
