@@ -1,0 +1,179 @@
+#include "core/scene/placed_geometry.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "core/geometry/mesh_generators.hpp"
+#include "core/scene/input_error_location.hpp"
+#include "core/scene/json_text.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+
+namespace {
+
+/// A vector of the scene, filled with zeros to three entries.
+Eigen::Vector3d toPoint(const Json& values) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < values.size(); ++i) point[static_cast<int>(i)] = values[i].get<double>();
+  return point;
+}
+
+Eigen::Matrix3Xd toPoints(const Json& values) {
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = toPoint(values[i]);
+  return points;
+}
+
+geometry::SurfaceMesh inlineMesh(const Json& entry, const std::string& pointer) {
+  geometry::SurfaceMesh mesh;
+  mesh.points = toPoints(entry["points"]);
+  const Json& triangles = entry["triangles"];
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (triangles[t][i].get<long long>() >= mesh.points.cols())
+        throw InputError(childPointer(childPointer(pointer + "/triangles", t), i),
+                         "There is no node " + triangles[t][i].dump() + "; the geometry has " +
+                             std::to_string(mesh.points.cols()) + ".");
+    mesh.triangles.push_back(triangles[t].get<std::array<int, 3>>());
+  }
+  geometry::checkMesh(mesh);
+  return mesh;
+}
+
+geometry::SurfaceMesh fileMesh(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
+  const auto file = directory / std::filesystem::path(entry["path"].get<std::string>());
+  geometry::SurfaceMesh mesh = locate(pointer + "/path", [&] {
+    return geometry::weldMesh(geometry::readMesh(file, entry["scale"]), entry["weld_tolerance"]);
+  });
+  geometry::checkMesh(mesh);
+  return mesh;
+}
+
+geometry::SurfaceMesh makeMesh(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
+  const std::string type = entry["type"];
+  if (type == "fork") {
+    geometry::ForkShape shape;
+    shape.handleLength = entry["handle_length"];
+    shape.prongLength = entry["prong_length"];
+    shape.width = entry["width"];
+    shape.spacing = entry["spacing"];
+    shape.handleCells = entry["handle_cells"];
+    shape.prongCells = entry["prong_cells"];
+    shape.widthCells = entry["width_cells"];
+    return geometry::makeFork(shape);
+  }
+  if (type == "strip")
+    return geometry::makeStrip(entry["length"], entry["width"], entry["length_cells"], entry["width_cells"]);
+  if (type == "grid")
+    return geometry::makeGrid(entry["length"], entry["width"], entry["length_cells"], entry["width_cells"]);
+  if (type == "mesh") return inlineMesh(entry, pointer);
+  if (type == "file") return fileMesh(entry, pointer, directory);
+  geometry::SurfaceMesh points;
+  points.points = toPoints(entry["points"]);
+  return points;
+}
+
+void place(const Json& entry, int dimension, Eigen::Matrix3Xd& points, const std::string& pointer) {
+  if (entry.contains("rotation")) {
+    const Eigen::Vector3d axis = toPoint(entry["rotation"]["axis"]).normalized();
+    points = Eigen::AngleAxisd(entry["rotation"]["angle"], axis) * points;
+  }
+  points.colwise() += toPoint(entry["position"]);
+  const double size = points.cwiseAbs().maxCoeff();
+  if (dimension == 2 && points.row(2).cwiseAbs().maxCoeff() > 1e-9 * size)
+    throw InputError(pointer, "The geometry does not lie in the plane z = 0, but the scene's dimension is 2.");
+}
+
+[[noreturn]] void nothing(const std::string& pointer, const PlacedGeometry& geometry, const std::string& what) {
+  throw InputError(pointer, what + " of the geometry " + quote(geometry.name) + ", which has " +
+                                std::to_string(geometry.nodeCount()) + " nodes.");
+}
+
+std::vector<int> nodesInBox(const Json& box, const std::string& pointer, const PlacedGeometry& geometry) {
+  const Eigen::Vector3d low = toPoint(box["minimum"]), high = toPoint(box["maximum"]);
+  std::vector<int> nodes;
+  for (int n = 0; n < geometry.nodeCount(); ++n) {
+    bool inside = true;
+    for (int axis = 0; axis < static_cast<int>(box["minimum"].size()); ++axis)
+      inside = inside && geometry.mesh.points(axis, n) >= low[axis] && geometry.mesh.points(axis, n) <= high[axis];
+    if (inside) nodes.push_back(n);
+  }
+  if (nodes.empty()) nothing(pointer + "/box", geometry, "The box holds no node");
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> PlacedGeometry::globalTriangles() const {
+  std::vector<std::array<int, 3>> triangles = mesh.triangles;
+  for (auto& triangle : triangles)
+    for (int& node : triangle) node += firstNode;
+  return triangles;
+}
+
+std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
+  const Json& entries = scene.normalized()["geometry"];
+  const int dimension = scene.normalized()["dimension"];
+  std::vector<PlacedGeometry> geometries;
+  int nodeCount = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::string pointer = childPointer("/geometry", i);
+    PlacedGeometry geometry;
+    geometry.name = entries[i]["name"];
+    geometry.firstNode = nodeCount;
+    geometry.mesh = locate(pointer, [&] { return makeMesh(entries[i], pointer, scene.directory()); });
+    place(entries[i], dimension, geometry.mesh.points, pointer);
+    nodeCount += geometry.nodeCount();
+    geometries.push_back(std::move(geometry));
+  }
+  if (nodeCount == 0) throw InputError("/geometry", "The scene has no nodes.");
+  return geometries;
+}
+
+std::vector<int> selectNodes(const Json& selection, const std::string& pointer,
+                             const std::vector<PlacedGeometry>& geometries) {
+  const auto found = std::find_if(geometries.begin(), geometries.end(),
+                                  [&](const PlacedGeometry& g) { return g.name == selection["geometry"]; });
+  const PlacedGeometry& geometry = *found;
+  std::set<int> nodes;
+  if (selection.contains("nodes")) {
+    const Json& wanted = selection["nodes"];
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i].get<int>() >= geometry.nodeCount())
+        nothing(childPointer(pointer + "/nodes", i), geometry, "There is no node " + wanted[i].dump());
+      nodes.insert(wanted[i].get<int>());
+    }
+  } else if (selection.contains("group")) {
+    const std::string name = selection["group"];
+    const auto group = geometry.mesh.groups.find(name);
+    if (group == geometry.mesh.groups.end()) {
+      std::string known;
+      for (const auto& entry : geometry.mesh.groups) known += (known.empty() ? "" : ", ") + quote(entry.first);
+      throw InputError(pointer + "/group", "The geometry " + quote(geometry.name) + " has no group " + quote(name) +
+                                               "; its groups: " + (known.empty() ? "none" : known) + ".");
+    }
+    nodes.insert(group->second.begin(), group->second.end());
+  } else if (selection.contains("nearest")) {
+    const Eigen::Vector3d target = toPoint(selection["nearest"]);
+    Eigen::Index nearest = 0;
+    (geometry.mesh.points.colwise() - target).colwise().squaredNorm().minCoeff(&nearest);
+    nodes.insert(static_cast<int>(nearest));
+  } else {
+    for (const int node : nodesInBox(selection["box"], pointer, geometry)) nodes.insert(node);
+  }
+  std::vector<int> result(nodes.begin(), nodes.end());
+  for (int& node : result) node += geometry.firstNode;
+  return result;
+}
+
+int selectNode(const Json& selection, const std::string& pointer, const std::vector<PlacedGeometry>& geometries) {
+  const std::vector<int> nodes = selectNodes(selection, pointer, geometries);
+  if (nodes.size() != 1)
+    throw InputError(pointer, "Expected a single node, but the selection has " + std::to_string(nodes.size()) + ".");
+  return nodes.front();
+}
+
+}  // namespace pliant::scene
