@@ -227,4 +227,13 @@ std::shared_ptr<const mechanics::Model> buildModel(const Scene& scene) {
   }
 }
 
+geometry::SurfaceMesh surfaceAt(const mechanics::Model& model, const Vector& positions) {
+  geometry::SurfaceMesh mesh;
+  mesh.points.setZero(3, model.nodeCount());
+  mesh.points.topRows(model.dimension) = positions.reshaped(model.dimension, model.nodeCount());
+  for (const mechanics::DisplayPart& part : model.parts)
+    mesh.triangles.insert(mesh.triangles.end(), part.triangles.begin(), part.triangles.end());
+  return mesh;
+}
+
 }  // namespace pliant::scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,12 +15,13 @@
 
 namespace pliant::scene {
 
-/// Where numbers come from: version, scene, its hash, options, threads, date (kept out of anything compared bytewise).
+/// Where numbers come from.
 struct Provenance {
   std::string version;
   std::string sceneName;
-  std::string sceneHash;
+  std::string sceneHash;  ///< of the normalised scene and the mesh files it names, see `hashScene`
   std::string study;
+  Json options;  ///< the study's normalised entry
 };
 
 /// What a study returns. A kind of result knows how it is written and read back.
@@ -30,7 +32,8 @@ class Result {
   virtual std::string kind() const = 0;
   /// Every scalar that a person would quote (summary.json).
   virtual Json summary() const = 0;
-  /// Writes summary.json and the tables beside it into `directory`, atomically (a temporary folder that is renamed).
+  /// Writes summary.json and the tables beside it into `directory`, atomically (a temporary folder that is renamed); an
+  /// older result there is replaced. Throws base::InputError if it cannot be written or would replace anything else.
   virtual void write(const std::filesystem::path& directory) const = 0;
 
   base::TerminationType termination = base::TerminationType::failed;
@@ -39,16 +42,51 @@ class Result {
   Provenance provenance;
 };
 
+/// The points of a curve. Copies share the points, so a snapshot of a growing curve costs a pointer a point.
+class ResponsePoints {
+ public:
+  class Iterator {
+   public:
+    using Base = std::vector<std::shared_ptr<const harmonic::ResponsePoint>>::const_iterator;
+    explicit Iterator(Base base) : base_(base) {}
+    const harmonic::ResponsePoint& operator*() const { return **base_; }
+    const harmonic::ResponsePoint* operator->() const { return base_->get(); }
+    Iterator& operator++() { return ++base_, *this; }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    Base base_;
+  };
+
+  std::size_t size() const { return points_.size(); }
+  bool empty() const { return points_.empty(); }
+  const harmonic::ResponsePoint& operator[](std::size_t i) const { return *points_[i]; }
+  const harmonic::ResponsePoint& front() const { return *points_.front(); }
+  const harmonic::ResponsePoint& back() const { return *points_.back(); }
+  Iterator begin() const { return Iterator(points_.begin()); }
+  Iterator end() const { return Iterator(points_.end()); }
+  void push_back(harmonic::ResponsePoint point) {
+    points_.push_back(std::make_shared<const harmonic::ResponsePoint>(std::move(point)));
+  }
+
+ private:
+  std::vector<std::shared_ptr<const harmonic::ResponsePoint>> points_;
+};
+
 /// Periodic motions of one model: a single one, or the points of a response curve.
 class HarmonicResult final : public Result {
  public:
   std::string kind() const override { return "harmonic"; }
   Json summary() const override;
+  /// summary.json, response.csv (a row a point), coefficients.csv (every point's Fourier coefficients, exactly),
+  /// trajectories.csv (of the probes), mesh.ply (the rest shape, if there are triangles), sensitivity.csv.
   void write(const std::filesystem::path& directory) const override;
+  /// What `write` wrote for a scene with the same nodes. The model gets the values of the design parameters with which
+  /// the result was computed. Throws base::InputError.
   static std::shared_ptr<HarmonicResult> read(const Scene& scene, const std::filesystem::path& directory);
 
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
-  std::vector<harmonic::ResponsePoint> points;
+  ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
   bool isCurve = false;                                              ///< true for a frequency_response
@@ -76,17 +114,21 @@ using StudyFactory = std::function<std::unique_ptr<Study>(const Scene&, std::sha
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();
-  const std::vector<base::ParameterSpec>& specs() const { return specs_; }
+  /// The options of every kind, as in the scene's "studies".
+  const std::vector<base::ParameterSpec>& specs() const;
+  /// Throws base::InputError if the scene has no such study.
   std::unique_ptr<Study> make(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                               const std::string& studyName) const;
 
  private:
   StudyRegistry();
-  std::vector<base::ParameterSpec> specs_;
   std::map<std::string, StudyFactory> factories_;
 };
 
 /// Names of the scene's studies in order.
 std::vector<std::string> studyNames(const Scene& scene);
+
+/// Sixteen hexadecimal digits (FNV-1a, 64 bits) of the normalised scene and the contents of the files it names.
+std::string hashScene(const Scene& scene);
 
 }  // namespace pliant::scene

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/exit_status.hpp"
+
+/// The verbs of the command line. Each prints its answer on standard output and throws base::InputError for bad input.
+namespace pliant::cli {
+
+ExitStatus list(const std::string& scene);
+
+struct RunOptions {
+  std::string scene;
+  std::string out;
+  std::vector<std::string> studies;  ///< empty: all
+  std::vector<std::string> settings;  ///< "/json/pointer=VALUE"
+  int threads = 0;                    ///< 0: all cores
+};
+ExitStatus run(const RunOptions& options);
+
+ExitStatus validate(const std::string& scene);
+
+/// Where a picture or a mesh is taken from.
+struct MotionOptions {
+  std::string scene;
+  std::string out;
+  std::string result;  ///< folder that `run` wrote; empty: the rest shape
+  std::string study;   ///< empty: the first of the scene that has a result
+  std::string time = "0 s";
+};
+ExitStatus render(const MotionOptions& options, const std::string& size);
+ExitStatus exportMesh(const MotionOptions& options);
+
+/// The JSON Schema, or the tables of scenes/README.md.
+ExitStatus schema(bool tables);
+
+}  // namespace pliant::cli

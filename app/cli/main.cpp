@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <new>
+
+#include "app/cli/commands.hpp"
+#include "core/base/error.hpp"
+
+namespace pliant::cli {
+namespace {
+
+int complain(std::string sentence, ExitStatus status) {
+  std::replace_if(sentence.begin(), sentence.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::cerr << sentence << std::endl;
+  return status;
+}
+
+void addScene(CLI::App* verb, std::string& scene) { verb->add_option("SCENE", scene, "Scene file")->required(); }
+
+void addMotion(CLI::App* verb, MotionOptions& motion) {
+  addScene(verb, motion.scene);
+  verb->add_option("--result", motion.result, "Folder that `run` wrote; without it, the rest shape");
+  verb->add_option("--study", motion.study, "Study whose motion is shown; else the first that has a result");
+  verb->add_option("--time", motion.time, "Time within the period, such as 0.1 or \"20 ms\"")->capture_default_str();
+}
+
+int runProgram(int argc, char** argv) {
+  CLI::App program("Designs nonlinear mechanical systems: computes what a scene file describes.", "pliant-cli");
+  program.set_version_flag("--version", "pliant-cli " PLIANT_VERSION);
+  program.require_subcommand(1);
+  ExitStatus status = done;
+
+  std::string scene;
+  CLI::App* verb = program.add_subcommand("list", "Print the studies and parameters of a scene");
+  addScene(verb, scene);
+  verb->callback([&] { status = list(scene); });
+
+  RunOptions runOptions;
+  verb = program.add_subcommand("run", "Compute studies and write their results");
+  addScene(verb, runOptions.scene);
+  verb->add_option("--out", runOptions.out, "Folder for the results, one folder a study")->required();
+  verb->add_option("--study", runOptions.studies, "Study to compute; may be repeated; else all")->allow_extra_args(false);
+  verb->add_option("--set", runOptions.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--threads", runOptions.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
+  verb->callback([&] { status = run(runOptions); });
+
+  verb = program.add_subcommand("validate", "Check a scene without computing");
+  addScene(verb, scene);
+  verb->callback([&] { status = validate(scene); });
+
+  MotionOptions motion;
+  std::string size = "1280x720";
+  verb = program.add_subcommand("render", "Draw a picture, without a display");
+  addMotion(verb, motion);
+  verb->add_option("--out", motion.out, "PNG file")->required();
+  verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
+  verb->callback([&] { status = render(motion, size); });
+
+  verb = program.add_subcommand("export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF");
+  addMotion(verb, motion);
+  verb->add_option("--out", motion.out, "Mesh file; its ending chooses the format")->required();
+  verb->callback([&] { status = exportMesh(motion); });
+
+  bool tables = false;
+  verb = program.add_subcommand("schema", "Print the JSON Schema of scene files");
+  verb->add_flag("--tables", tables, "Print the tables of scenes/README.md instead");
+  verb->callback([&] { status = schema(tables); });
+
+  program.footer("Exit status: 0 done; 1 not converged; 2 wrong usage or input; 130 cancelled.");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string("pliant-cli: ") + error.what() + " (see --help)", wrongInput);
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace pliant::cli
+
+int main(int argc, char** argv) {
+  using namespace pliant;
+  try {
+    return cli::runProgram(argc, argv);
+  } catch (const base::InputError& error) {
+    return cli::complain(error.what(), cli::wrongInput);
+  } catch (const std::bad_alloc&) {
+    return cli::complain("There is not enough memory for this computation.", cli::notConverged);
+  } catch (const std::exception& error) {
+    return cli::complain(error.what(), cli::notConverged);
+  }
+}

@@ -1,0 +1,119 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <numbers>
+
+#include "app/cli/commands.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/model_builder.hpp"
+#include "core/scene/study.hpp"
+#ifdef PLIANT_HAS_RENDERER
+#include "ui/render/offscreen.hpp"
+#endif
+
+namespace pliant::cli {
+
+using base::InputError;
+
+namespace {
+
+/// A model at one time of a motion; `problem` is null for the rest shape.
+struct Moment {
+  std::shared_ptr<const mechanics::Model> model;
+  std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
+  mechanics::Vector z;
+  double tau = 0;
+  std::string caption;
+};
+
+std::string studyWithResult(const scene::Scene& scene, const MotionOptions& options) {
+  if (!options.study.empty()) return options.study;
+  for (const std::string& name : scene::studyNames(scene))
+    if (std::filesystem::exists(std::filesystem::path(options.result) / name / "summary.json")) return name;
+  throw InputError(options.result, "This folder has no result of any study of the scene.");
+}
+
+/// The point of a curve where the probes together swing widest.
+const harmonic::ResponsePoint& widestSwing(const scene::HarmonicResult& result) {
+  const auto swing = [](const harmonic::ResponsePoint& point) {
+    double sum = 0;
+    for (const auto& amplitude : point.amplitudes) sum += amplitude.pathLength;
+    return sum;
+  };
+  const harmonic::ResponsePoint* widest = &result.points.front();
+  for (const harmonic::ResponsePoint& point : result.points)
+    if (swing(point) > swing(*widest)) widest = &point;
+  return *widest;
+}
+
+Moment findMoment(const MotionOptions& options) {
+  const auto scene = scene::Scene::load(options.scene);
+  Moment moment;
+  moment.caption = scene.normalized()["title"];
+  double time = 0;
+  try {
+    time = base::parseQuantity(options.time, base::dimensions::time);
+  } catch (const InputError& error) {
+    throw InputError("--time", error.problem());
+  }
+  if (options.result.empty()) {
+    moment.model = scene::buildModel(scene);
+    return moment;
+  }
+  const std::string study = studyWithResult(scene, options);
+  const auto folder = std::filesystem::path(options.result) / study;
+  const auto result = scene::HarmonicResult::read(scene, folder);
+  if (result->points.empty()) throw InputError(folder.string(), "This result has no motion.");
+  const harmonic::ResponsePoint& point = widestSwing(*result);
+  moment.model = result->problem->sharedModel();
+  moment.problem = result->problem;
+  moment.z = point.z;
+  moment.tau = std::fmod(point.omega * time, 2 * std::numbers::pi);
+  moment.caption += (moment.caption.empty() ? "" : "\n") + study + ", ω = " +
+                    base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
+                    ", H = " + std::to_string(result->problem->basis().harmonics()) + ", residual " +
+                    base::formatQuantity(point.residual, {});
+  if (result->termination != base::TerminationType::converged)
+    moment.caption += " (" + std::string(base::toString(result->termination)) + ")";
+  return moment;
+}
+
+}  // namespace
+
+ExitStatus exportMesh(const MotionOptions& options) {
+  const Moment moment = findMoment(options);
+  const mechanics::Vector positions = 
+      moment.problem ? moment.problem->configurationAt(moment.z, moment.tau) : moment.model->restPositions;
+  const geometry::SurfaceMesh mesh = scene::surfaceAt(*moment.model, positions);
+  if (mesh.triangles.empty()) throw InputError(options.scene, "The scene has no triangles to export.");
+  geometry::writeMesh(mesh, options.out);
+  std::cout << options.out << ": " << moment.model->nodeCount() << " nodes, " << mesh.triangles.size() << " triangles\n";
+  return done;
+}
+
+#ifdef PLIANT_HAS_RENDERER
+
+ExitStatus render(const MotionOptions& options, const std::string& size) {
+  render::PictureOptions picture;
+  int used = 0;
+  if (std::sscanf(size.c_str(), "%5dx%5d%n", &picture.width, &picture.height, &used) != 2 ||
+      static_cast<std::size_t>(used) != size.size())
+    throw InputError("--size", "Expected WIDTHxHEIGHT, such as 1280x720, found " + scene::quote(size) + ".");
+  const Moment moment = findMoment(options);
+  picture.caption = moment.caption;
+  render::renderToPng(moment.model, moment.problem, moment.z, moment.tau, picture, options.out);
+  std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
+  return done;
+}
+
+#else
+
+ExitStatus render(const MotionOptions&, const std::string&) {
+  throw InputError("render", "This build of pliant-cli has no renderer; build with PLIANT_BUILD_UI.");
+}
+
+#endif
+
+}  // namespace pliant::cli

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/progress_display.hpp"
+#include "core/base/error.hpp"
+#include "core/math/parallel.hpp"
+#include "core/scene/expected_values.hpp"
+#include "core/scene/model_builder.hpp"
+#include "core/scene/result_folder.hpp"
+#include "core/scene/study.hpp"
+
+namespace pliant::cli {
+
+namespace dimensions = base::dimensions;
+using scene::Json;
+
+namespace {
+
+/// The scene with "/json/pointer=VALUE" applied; VALUE is JSON, or a text where it is none.
+scene::Scene applySetting(const scene::Scene& scene, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || setting.empty() || setting.front() != '/')
+    throw base::InputError("--set " + setting, "Expected /json/pointer=VALUE.");
+  const std::string text = setting.substr(equals + 1);
+  const Json value = Json::parse(text, nullptr, false);
+  return scene.withValue(setting.substr(0, equals), value.is_discarded() ? Json(text) : value);
+}
+
+std::string length(const Json& value) { return base::formatQuantity(value.get<double>(), dimensions::length); }
+
+std::string frequency(const Json& entry) {
+  return base::formatQuantity(entry["frequency"].get<double>(), dimensions::angularFrequency) + " (" +
+         base::formatQuantity(entry["frequency_hz"].get<double>(), {}) + " Hz)";
+}
+
+void printProbes(const Json& probes) {
+  for (const Json& probe : probes)
+    std::cout << "  " << probe["name"].get<std::string>() << ": path length " << length(probe["path_length"])
+              << ", maximum displacement " << length(probe["maximum_displacement"]) << "\n";
+}
+
+void printSummary(const Json& summary) {
+  std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
+            << summary["newton_iterations"] << " Newton iterations, residual "
+            << base::formatQuantity(summary["residual"].get<double>(), {}) << ", "
+            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
+  if (const auto message = summary["message"].get<std::string>(); !message.empty()) std::cout << "  " << message << "\n";
+  std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
+            << " unknowns\n";
+  if (summary.contains("probes")) {
+    std::cout << "  at " << frequency(summary) << "\n";
+    printProbes(summary["probes"]);
+  }
+  if (!summary.contains("point_count")) return;
+  std::cout << "  " << summary["point_count"] << " points\n";
+  for (const Json& peak : summary["peaks"]) {
+    std::cout << "  peak at " << frequency(peak);
+    if (peak.contains("probe"))
+      std::cout << ": " << peak["probe"].get<std::string>() << " path length " << length(peak["path_length"])
+                << ", maximum displacement " << length(peak["maximum_displacement"]);
+    std::cout << "\n";
+  }
+  for (const Json& fold : summary["folds"]) std::cout << "  fold at " << frequency(fold) << "\n";
+}
+
+void printExpected(const std::vector<scene::ExpectedValue>& values) {
+  if (values.empty()) return;
+  const auto met = std::count_if(values.begin(), values.end(), [](const auto& value) { return value.holds(); });
+  std::cout << "  expected values: " << met << " of " << values.size() << " met\n";
+  for (const scene::ExpectedValue& value : values)
+    if (!value.holds())
+      std::cout << "  " << value.pointer << " is " << base::formatQuantityExactly(value.found, {}) << ", expected "
+                << base::formatQuantityExactly(value.expected, {}) << "\n";
+}
+
+}  // namespace
+
+ExitStatus run(const RunOptions& options) {
+  math::setThreadCount(options.threads);
+  scene::Scene scene = scene::Scene::load(options.scene);
+  for (const std::string& setting : options.settings) scene = applySetting(scene, setting);
+  const auto model = scene::buildModel(scene);
+  const std::vector<std::string> names = options.studies.empty() ? scene::studyNames(scene) : options.studies;
+  if (names.empty()) throw base::InputError(scene.name() + ": /studies", "The scene has no studies to run.");
+
+  std::vector<std::unique_ptr<scene::Study>> studies;
+  for (const std::string& name : names) {
+    studies.push_back(scene::StudyRegistry::instance().make(scene, model, name));
+    scene::ResultFolder writable(std::filesystem::path(options.out) / name);  // refuses before anything is computed
+  }
+
+  ProgressDisplay display;
+  std::string current;
+  base::ExecutionContext context(
+      [&](double fraction, const std::string& message) {
+        display.show(fraction, message.empty() ? current : current + ": " + message);
+      },
+      [&](base::Severity severity, const std::string& message) { display.log(severity, message); });
+  const CancelOnInterrupt interrupt(context);
+  ExitStatus status = done;
+  for (std::size_t i = 0; i < studies.size() && !context.cancelRequested(); ++i) {
+    current = names[i];
+    const auto count = static_cast<double>(studies.size());
+    context.setRange(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    const auto result = studies[i]->run(context);
+    const std::filesystem::path folder = std::filesystem::path(options.out) / names[i];
+    result->write(folder);
+    display.clear();
+    const Json summary = result->summary();
+    printSummary(summary);
+    if (options.settings.empty()) printExpected(scene::compareWithExpected(scene, names[i], summary));
+    std::cout << "  written to " << folder.string() << std::endl;
+    if (result->termination == base::TerminationType::cancelled) status = cancelled;
+    else if (result->termination != base::TerminationType::converged && status == done) status = notConverged;
+  }
+  return context.cancelRequested() ? cancelled : status;
+}
+
+}  // namespace pliant::cli

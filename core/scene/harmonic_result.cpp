@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <ctime>
+#include <numbers>
+
+#include "core/math/parallel.hpp"
+#include "core/scene/study.hpp"
+
+namespace pliant::scene {
+
+using harmonic::PointKind;
+using harmonic::ResponsePoint;
+
+namespace {
+
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+void addFrequency(Json& json, double omega) {
+  json["frequency"] = omega;
+  json["frequency_hz"] = omega / (2 * std::numbers::pi);
+}
+
+/// What each probe does at one point.
+Json probesAt(const HarmonicResult& result, const ResponsePoint& point) {
+  Json probes = Json::array();
+  const auto& model = result.problem->model();
+  for (std::size_t i = 0; i < point.amplitudes.size(); ++i)
+    probes.push_back({{"name", model.probes[i].name},
+                      {"node", model.probes[i].node},
+                      {"path_length", point.amplitudes[i].pathLength},
+                      {"maximum_displacement", point.amplitudes[i].maximumDisplacement}});
+  return probes;
+}
+
+void addSensitivities(const HarmonicResult& result, Json& probes) {
+  const auto& model = result.problem->model();
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const auto gradient = harmonic::pathLengthGradient(*result.problem, result.points.front().z, model.probes[i].node);
+    const Eigen::VectorXd derivative = result.sensitivity->derivative().transpose() * gradient;
+    Json list = Json::array();
+    for (std::size_t p = 0; p < model.parameters.size(); ++p)
+      list.push_back({{"parameter", model.parameters[p]->name()},
+                      {"path_length_derivative", derivative[static_cast<Eigen::Index>(p)]}});
+    probes[i]["sensitivities"] = list;
+  }
+}
+
+void addCurve(const HarmonicResult& result, Json& json) {
+  Json folds = Json::array(), peaks = Json::array();
+  long newtonIterations = 0;
+  double residual = 0;
+  for (const ResponsePoint& point : result.points) {
+    newtonIterations += point.newtonIterations;
+    residual = std::max(residual, point.residual);
+    if (point.kind == PointKind::regular) continue;
+    Json entry;
+    addFrequency(entry, point.omega);
+    if (point.kind == PointKind::peak) {
+      if (point.probe >= 0) {
+        entry["probe"] = result.problem->model().probes[static_cast<std::size_t>(point.probe)].name;
+        const auto& amplitude = point.amplitudes[static_cast<std::size_t>(point.probe)];
+        entry["path_length"] = amplitude.pathLength;
+        entry["maximum_displacement"] = amplitude.maximumDisplacement;
+      }
+      peaks.push_back(entry);
+    } else {
+      entry["probes"] = probesAt(result, point);
+      folds.push_back(entry);
+    }
+  }
+  json["point_count"] = result.points.size();
+  if (!result.points.empty()) {
+    json["first_frequency"] = result.points.front().omega;
+    json["last_frequency"] = result.points.back().omega;
+  }
+  json["peak_count"] = peaks.size();
+  json["peaks"] = peaks;
+  json["fold_count"] = folds.size();
+  json["folds"] = folds;
+  json["residual"] = residual;
+  json["newton_iterations"] = newtonIterations;
+}
+
+void addMotion(const HarmonicResult& result, Json& json) {
+  if (!result.points.empty()) {
+    addFrequency(json, result.points.front().omega);
+    Json probes = probesAt(result, result.points.front());
+    if (result.sensitivity && result.sensitivity->regular()) addSensitivities(result, probes);
+    json["probes"] = probes;
+  }
+  json["residual"] = result.report.residual();
+  Json iterations = Json::array();
+  for (const base::IterationRecord& record : result.report.iterations)
+    iterations.push_back(
+        {{"iteration", record.iteration}, {"residual", record.residual}, {"step_length", record.stepLength}});
+  json["newton_iterations"] = iterations.empty() ? 0 : iterations.size() - 1;
+  json["iterations"] = iterations;
+}
+
+}  // namespace
+
+Json HarmonicResult::summary() const {
+  const auto& model = problem->model();
+  Json json{{"kind", kind()},
+            {"study", provenance.study},
+            {"type", isCurve ? "frequency_response" : "periodic_motion"},
+            {"termination", base::toString(termination)},
+            {"message", message}};
+  if (isCurve) addCurve(*this, json);
+  else addMotion(*this, json);
+  json["harmonics"] = problem->basis().harmonics();
+  json["samples"] = problem->basis().samples();
+  json["unknowns"] = problem->size();
+  json["nodes"] = model.nodeCount();
+  json["free_coordinates"] = model.dofs.freeCount();
+  Json parameters = Json::array();
+  for (const auto& parameter : model.parameters)
+    parameters.push_back({{"name", parameter->name()},
+                          {"pointer", parameter->pointer()},
+                          {"value", parameter->value(model)},
+                          {"unit", base::siUnit(parameter->dimension())}});
+  json["parameters"] = parameters;
+  json["units"] = {{"frequency", "rad/s"}, {"frequency_hz", "Hz"},           {"path_length", "m"},
+                   {"maximum_displacement", "m"}, {"path_length_derivative", "m per unit of the parameter"},
+                   {"residual", "relative to the driving force"}, {"seconds", "s"}};
+  json["seconds"] = seconds;
+  json["provenance"] = {{"version", provenance.version},     {"scene", provenance.sceneName},
+                        {"scene_hash", provenance.sceneHash}, {"date", now()},
+                        {"threads", math::threadCount()},     {"options", provenance.options}};
+  return json;
+}
+
+}  // namespace pliant::scene

@@ -1,0 +1,231 @@
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "core/geometry/surface_mesh.hpp"
+#include "core/scene/csv.hpp"
+#include "core/scene/input_error_location.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/model_builder.hpp"
+#include "core/scene/result_folder.hpp"
+#include "core/scene/study.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+using harmonic::PointKind;
+using harmonic::ResponsePoint;
+using mechanics::Model;
+
+namespace {
+
+constexpr std::string_view axisNames = "xyz";
+constexpr std::size_t columnsBeforeProbes = 6;  ///< of response.csv
+constexpr std::size_t columnsBeforeCoefficients = 3;
+
+std::string_view kindName(PointKind kind) {
+  return kind == PointKind::fold ? "fold" : kind == PointKind::peak ? "peak" : "regular";
+}
+
+std::string responseTable(const HarmonicResult& result) {
+  const Model& model = result.problem->model();
+  CsvWriter csv;
+  csv.add("point").add("kind").add("peak of").add("omega [rad/s]").add("arc length").add("residual");
+  for (const auto& probe : model.probes)
+    csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
+  csv.add("newton iterations").endRow();
+  int index = 0;
+  for (const ResponsePoint& point : result.points) {
+    csv.add(index++).add(kindName(point.kind));
+    csv.add(point.probe < 0 ? std::string_view() : model.probes[static_cast<std::size_t>(point.probe)].name);
+    csv.add(point.omega).add(point.arcLength).add(point.residual);
+    for (const auto& amplitude : point.amplitudes) csv.add(amplitude.pathLength).add(amplitude.maximumDisplacement);
+    csv.add(point.newtonIterations).endRow();
+  }
+  return csv.text();
+}
+
+std::string coefficientTable(const HarmonicResult& result) {
+  const Model& model = result.problem->model();
+  const int harmonics = result.problem->basis().harmonics(), count = result.problem->basis().size();
+  CsvWriter csv;
+  csv.add("point").add("node").add("axis").add("constant [m]");
+  for (int k = 1; k <= harmonics; ++k)
+    csv.add("sin " + std::to_string(k) + " [m]").add("cos " + std::to_string(k) + " [m]");
+  csv.endRow();
+  int index = 0;
+  for (const ResponsePoint& point : result.points) {
+    for (int free = 0; free < model.dofs.freeCount(); ++free) {
+      const int coordinate = model.dofs.freeCoordinates[static_cast<std::size_t>(free)];
+      csv.add(index).add(coordinate / model.dimension);
+      csv.add(axisNames.substr(static_cast<std::size_t>(coordinate % model.dimension), 1));
+      for (int i = 0; i < count; ++i) csv.add(point.z[free * count + i]);
+      csv.endRow();
+    }
+    ++index;
+  }
+  return csv.text();
+}
+
+std::string trajectoryTable(const HarmonicResult& result) {
+  const Model& model = result.problem->model();
+  const int samples = result.problem->basis().samples();
+  CsvWriter csv;
+  csv.add("point").add("sample").add("omega t [rad]");
+  for (const auto& probe : model.probes)
+    for (int axis = 0; axis < model.dimension; ++axis)
+      csv.add(probe.name + " " + axisNames[static_cast<std::size_t>(axis)] + " [m]");
+  csv.endRow();
+  int index = 0;
+  for (const ResponsePoint& point : result.points) {
+    std::vector<mechanics::Matrix> paths;
+    for (const auto& probe : model.probes) paths.push_back(result.problem->nodeTrajectory(point.z, probe.node));
+    for (int sample = 0; sample < samples; ++sample) {
+      csv.add(index).add(sample).add(2 * std::numbers::pi * sample / samples);
+      for (const auto& path : paths)
+        for (int axis = 0; axis < model.dimension; ++axis) csv.add(path(sample, axis));
+      csv.endRow();
+    }
+    ++index;
+  }
+  return csv.text();
+}
+
+std::string sensitivityTable(const HarmonicResult& result) {
+  const Model& model = result.problem->model();
+  CsvWriter csv;
+  csv.add("parameter").add("pointer").add("unit").add("value");
+  for (const auto& probe : model.probes) csv.add(probe.name + " path length derivative [m/unit]");
+  csv.endRow();
+  mechanics::Matrix derivatives(model.probes.size(), model.parameters.size());
+  for (std::size_t i = 0; i < model.probes.size(); ++i)
+    derivatives.row(static_cast<Eigen::Index>(i)) =
+        harmonic::pathLengthGradient(*result.problem, result.points.front().z, model.probes[i].node).transpose() *
+        result.sensitivity->derivative();
+  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
+    const auto& parameter = *model.parameters[p];
+    csv.add(parameter.name()).add(parameter.pointer()).add(base::siUnit(parameter.dimension()));
+    csv.add(parameter.value(model));
+    for (Eigen::Index i = 0; i < derivatives.rows(); ++i) csv.add(derivatives(i, static_cast<Eigen::Index>(p)));
+    csv.endRow();
+  }
+  return csv.text();
+}
+
+[[noreturn]] void otherScene() {
+  throw InputError("", "This result belongs to a scene with other nodes, probes, drives or locked coordinates.");
+}
+
+/// The model of the scene with the parameter values that the result was computed with.
+std::shared_ptr<const Model> modelOf(const Scene& scene, const Json& summary) {
+  auto model = buildModel(scene);
+  const Json& values = summary.at("parameters");
+  if (values.size() != model->parameters.size()) otherScene();
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    const double value = values[p].at("value");
+    if (value != model->parameters[p]->value(*model))
+      model = std::make_shared<const Model>(model->parameters[p]->withValue(*model, value));
+  }
+  return model;
+}
+
+void readPoints(HarmonicResult& result, const std::string& response, const std::string& coefficients) {
+  const Model& model = result.problem->model();
+  const auto rows = readCsv(response), values = readCsv(coefficients);
+  const auto count = static_cast<std::size_t>(result.problem->basis().size());
+  const auto freeCount = static_cast<std::size_t>(model.dofs.freeCount());
+  const std::size_t probeCount = model.probes.size();
+  if (values.size() != rows.size() * freeCount) otherScene();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    if (row.size() != columnsBeforeProbes + 2 * probeCount + 1) otherScene();
+    ResponsePoint point;
+    point.kind = row[1] == "fold" ? PointKind::fold : row[1] == "peak" ? PointKind::peak : PointKind::regular;
+    for (std::size_t p = 0; p < probeCount; ++p)
+      if (row[2] == model.probes[p].name) point.probe = static_cast<int>(p);
+    point.omega = csvNumber(row[3]);
+    point.arcLength = csvNumber(row[4]);
+    point.residual = csvNumber(row[5]);
+    for (std::size_t p = 0; p < probeCount; ++p)
+      point.amplitudes.push_back(
+          {csvNumber(row[columnsBeforeProbes + 2 * p]), csvNumber(row[columnsBeforeProbes + 2 * p + 1])});
+    point.newtonIterations = csvInteger(row.back());
+    point.z.resize(static_cast<Eigen::Index>(count * freeCount));
+    for (std::size_t free = 0; free < freeCount; ++free) {
+      const auto& cells = values[i * freeCount + free];
+      const int coordinate = model.dofs.freeCoordinates[free];
+      if (cells.size() != columnsBeforeCoefficients + count || csvInteger(cells[1]) != coordinate / model.dimension ||
+          cells[2] != axisNames.substr(static_cast<std::size_t>(coordinate % model.dimension), 1))
+        otherScene();
+      for (std::size_t c = 0; c < count; ++c)
+        point.z[static_cast<Eigen::Index>(free * count + c)] = csvNumber(cells[columnsBeforeCoefficients + c]);
+    }
+    result.points.push_back(std::move(point));
+  }
+}
+
+base::TerminationType terminationOf(const std::string& text) {
+  using enum base::TerminationType;
+  for (const auto termination : {converged, iterationLimit, infeasible, cancelled})
+    if (text == base::toString(termination)) return termination;
+  return failed;
+}
+
+void readSummary(HarmonicResult& result, const Json& summary) {
+  result.isCurve = summary.at("type") == "frequency_response";
+  result.termination = terminationOf(summary.at("termination"));
+  result.message = summary.at("message");
+  result.seconds = summary.at("seconds");
+  const Json& provenance = summary.at("provenance");
+  result.provenance = {provenance.at("version"), provenance.at("scene"), provenance.at("scene_hash"),
+                       summary.at("study"), provenance.at("options")};
+  result.report.termination = result.termination;
+  result.report.message = result.message;
+  result.report.seconds = result.seconds;
+  if (result.isCurve) return;
+  for (const Json& record : summary.at("iterations"))
+    result.report.iterations.push_back({record.at("iteration"), record.at("residual"), record.at("step_length")});
+}
+
+}  // namespace
+
+void HarmonicResult::write(const std::filesystem::path& directory) const {
+  ResultFolder folder(directory);
+  folder.writeFile("response.csv", responseTable(*this));
+  folder.writeFile("coefficients.csv", coefficientTable(*this));
+  folder.writeFile("trajectories.csv", trajectoryTable(*this));
+  if (sensitivity && sensitivity->regular()) folder.writeFile("sensitivity.csv", sensitivityTable(*this));
+  if (const geometry::SurfaceMesh mesh = surfaceAt(problem->model(), problem->model().restPositions);
+      !mesh.triangles.empty())
+    geometry::writeMesh(mesh, folder.path("mesh.ply"));
+  folder.writeFile("summary.json", formatJson(summary()));
+  folder.commit();
+}
+
+std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const std::filesystem::path& directory) {
+  const auto result = std::make_shared<HarmonicResult>();
+  const std::string text = readTextFile(directory / "summary.json");
+  locate((directory / "summary.json").string(), [&] {
+    try {
+      const Json summary = parseJson(text);
+      const math::HarmonicBasis basis(summary.at("harmonics"), summary.at("samples"));
+      readSummary(*result, summary);
+      result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(modelOf(scene, summary), basis);
+    } catch (const Json::exception&) {
+      throw InputError("", "This is no summary of a result, or it is damaged.");
+    } catch (const std::invalid_argument&) {
+      throw InputError("", "This summary has impossible numbers of harmonics and samples.");
+    }
+  });
+  locate(directory.string(), [&] {
+    readPoints(*result, readTextFile(directory / "response.csv"), readTextFile(directory / "coefficients.csv"));
+  });
+  if (!result->isCurve && result->termination == base::TerminationType::converged && !result->points.empty()) {
+    harmonic::PeriodicMotion motion;
+    motion.omega = result->points.front().omega;
+    motion.z = result->points.front().z;
+    result->sensitivity = std::make_shared<const harmonic::ResponseSensitivity>(*result->problem, motion);
+  }
+  return result;
+}
+
+}  // namespace pliant::scene

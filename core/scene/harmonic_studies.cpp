@@ -1,0 +1,176 @@
+#include "core/scene/harmonic_studies.hpp"
+
+#include <chrono>
+
+#include "core/base/error.hpp"
+#include "core/scene/json_text.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+/// Entries of ∂h/∂z beyond which factors no longer fit an ordinary machine.
+constexpr double mostJacobianEntries = 2e8;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What the studies of harmonic balance share.
+class HarmonicStudy : public Study {
+ public:
+  HarmonicStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
+      : model_(std::move(model)),
+        options_(options),
+        provenance_{PLIANT_VERSION, scene.name(), hashScene(scene), options["name"], options} {
+    requireModestSize(scene, options.contains("harmonics_tolerance") ? "maximum_harmonics" : "harmonics");
+  }
+
+  std::string name() const override { return options_["name"]; }
+  std::string type() const override { return options_["type"]; }
+
+ protected:
+  harmonic::HarmonicBalanceProblem makeProblem() const {
+    return {model_, math::HarmonicBasis(options_["harmonics"], options_["samples"])};
+  }
+
+  harmonic::PeriodicMotionOptions newtonOptions() const {
+    harmonic::PeriodicMotionOptions newton;
+    newton.tolerance = options_["tolerance"];
+    newton.maximumIterations = options_["maximum_iterations"];
+    newton.maximumRampSteps = options_["maximum_ramp_steps"];
+    return newton;
+  }
+
+  std::shared_ptr<HarmonicResult> makeResult() const {
+    auto result = std::make_shared<HarmonicResult>();
+    result->provenance = provenance_;
+    return result;
+  }
+
+  static void finish(HarmonicResult& result, base::SolverReport report, Clock::time_point start) {
+    result.termination = report.termination;
+    result.message = report.message;
+    result.report = std::move(report);
+    result.seconds = secondsSince(start);
+  }
+
+  std::shared_ptr<const mechanics::Model> model_;
+  Json options_;
+
+ private:
+  void requireModestSize(const Scene& scene, const char* key) const {
+    const mechanics::ElasticAssembler assembler(model_);
+    const double size = 2.0 * options_[key].get<int>() + 1;
+    const double entries = size * size * (2.0 * assembler.entryCount() + model_->dofs.freeCount());
+    if (entries <= mostJacobianEntries) return;
+    const auto names = studyNames(scene);
+    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name()) - names.begin());
+    throw InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + key,
+                     options_[key].dump() + " harmonics are too many for a model with " +
+                         std::to_string(model_->dofs.freeCount()) + " free coordinates: the system would have " +
+                         std::to_string(static_cast<long long>(entries / 1e6)) + " million entries, and " +
+                         std::to_string(static_cast<long long>(mostJacobianEntries / 1e6)) + " are allowed.");
+  }
+
+  Provenance provenance_;
+};
+
+std::vector<harmonic::Amplitude> amplitudesOf(const harmonic::HarmonicBalanceProblem& problem,
+                                              const mechanics::Vector& z) {
+  std::vector<harmonic::Amplitude> amplitudes;
+  for (const mechanics::Probe& probe : problem.model().probes)
+    amplitudes.push_back(harmonic::amplitude(problem, z, probe.node));
+  return amplitudes;
+}
+
+class PeriodicMotionStudy final : public HarmonicStudy {
+ public:
+  using HarmonicStudy::HarmonicStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    const auto start = Clock::now();
+    const double omega = options_["frequency"];
+    auto [problem, motion] = [&] {
+      harmonic::HarmonicBalanceProblem first = makeProblem();
+      if (options_.contains("harmonics_tolerance"))
+        return harmonic::solveWithAdaptiveHarmonics(std::move(first), omega, options_["harmonics_tolerance"],
+                                                    options_["maximum_harmonics"], newtonOptions(), context);
+      harmonic::PeriodicMotion solved = harmonic::solvePeriodicMotion(first, omega, newtonOptions(), context);
+      return std::pair(std::move(first), std::move(solved));
+    }();
+    auto result = makeResult();
+    result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(std::move(problem));
+    if (motion.z.size() == result->problem->size() && motion.z.allFinite()) {
+      harmonic::ResponsePoint point;
+      point.omega = omega;
+      point.amplitudes = amplitudesOf(*result->problem, motion.z);
+      point.residual = motion.report.residual();
+      point.newtonIterations = std::max(0, static_cast<int>(motion.report.iterations.size()) - 1);
+      point.z = motion.z;
+      result->points.push_back(std::move(point));
+    }
+    if (motion.report.converged())
+      result->sensitivity = std::make_shared<const harmonic::ResponseSensitivity>(*result->problem, motion);
+    finish(*result, std::move(motion.report), start);
+    if (observe) observe(result);
+    return result;
+  }
+};
+
+class FrequencyResponseStudy final : public HarmonicStudy {
+ public:
+  using HarmonicStudy::HarmonicStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    constexpr double secondsBetweenSnapshots = 0.05;
+    const auto start = Clock::now();
+    auto lastSnapshot = start;
+    harmonic::HarmonicBalanceProblem problem = makeProblem();
+    auto result = makeResult();
+    result->isCurve = true;
+    result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(problem);
+    const auto onPoint = [&](const harmonic::ResponsePoint& point) {
+      result->points.push_back(point);
+      if (!observe || secondsSince(lastSnapshot) < secondsBetweenSnapshots) return;
+      lastSnapshot = Clock::now();
+      auto snapshot = std::make_shared<HarmonicResult>(*result);
+      snapshot->seconds = secondsSince(start);
+      observe(std::move(snapshot));
+    };
+    harmonic::FrequencyResponse response =
+        harmonic::traceFrequencyResponse(problem, responseOptions(), context, onPoint);
+    finish(*result, std::move(response.report), start);
+    if (observe) observe(result);
+    return result;
+  }
+
+ private:
+  harmonic::FrequencyResponseOptions responseOptions() const {
+    harmonic::FrequencyResponseOptions response;
+    response.from = options_["from"];
+    response.to = options_["to"];
+    response.initialStep = options_.value("initial_step", 0.0);
+    response.minimumStep = options_.value("minimum_step", 0.0);
+    response.maximumStep = options_.value("maximum_step", 0.0);
+    response.maximumPoints = options_["maximum_points"];
+    response.locationTolerance = options_["location_tolerance"];
+    response.newton = newtonOptions();
+    return response;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Study> makePeriodicMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                               const Json& options) {
+  return std::make_unique<PeriodicMotionStudy>(scene, std::move(model), options);
+}
+
+std::unique_ptr<Study> makeFrequencyResponseStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                                  const Json& options) {
+  return std::make_unique<FrequencyResponseStudy>(scene, std::move(model), options);
+}
+
+}  // namespace pliant::scene

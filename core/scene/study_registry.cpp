@@ -1,0 +1,50 @@
+#include "core/base/error.hpp"
+#include "core/scene/harmonic_studies.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/study.hpp"
+#include "core/scene/study_specs.hpp"
+
+namespace pliant::scene {
+
+StudyRegistry::StudyRegistry()
+    : factories_{{"periodic_motion", makePeriodicMotionStudy}, {"frequency_response", makeFrequencyResponseStudy}} {}
+
+const StudyRegistry& StudyRegistry::instance() {
+  static const StudyRegistry registry;
+  return registry;
+}
+
+const std::vector<base::ParameterSpec>& StudyRegistry::specs() const { return studySpecs(); }
+
+std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                           const std::string& studyName) const {
+  for (const Json& options : scene.normalized()["studies"])
+    if (options["name"] == studyName)
+      return factories_.at(options["type"])(scene, std::move(model), options);
+  std::string known;
+  for (const std::string& name : studyNames(scene)) known += (known.empty() ? "" : ", ") + quote(name);
+  throw base::InputError(scene.name() + ": /studies", "There is no study " + quote(studyName) + "; the scene has " +
+                                                          (known.empty() ? "none" : known) + ".");
+}
+
+std::vector<std::string> studyNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Json& study : scene.normalized()["studies"]) names.push_back(study["name"]);
+  return names;
+}
+
+std::string hashScene(const Scene& scene) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&](std::string_view text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  };
+  add(scene.normalized().dump());
+  for (const Json& geometry : scene.normalized()["geometry"])
+    if (geometry.contains("path")) add(readTextFile(scene.directory() / geometry["path"].get<std::string>()));
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += digits[(hash >> shift) & 15];
+  return text;
+}
+
+}  // namespace pliant::scene
