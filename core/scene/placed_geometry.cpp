@@ -79,7 +79,7 @@ geometry::SurfaceMesh makeMesh(const Json& entry, const std::string& pointer, co
 void place(const Json& entry, int dimension, Eigen::Matrix3Xd& points, const std::string& pointer) {
   if (entry.contains("rotation")) {
     const Eigen::Vector3d axis = toPoint(entry["rotation"]["axis"]).normalized();
-    points = Eigen::AngleAxisd(entry["rotation"]["angle"], axis) * points;
+    points = Eigen::AngleAxisd(entry["rotation"]["angle"], axis).toRotationMatrix() * points;
   }
   points.colwise() += toPoint(entry["position"]);
   const double size = points.cwiseAbs().maxCoeff();

@@ -23,7 +23,7 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
   keys.push_back(withDefault(
       positive(number("tolerance", "", "Residual force, relative to the driving force, at which Newton's method stops.",
                       dimensions::none)),
-      1e-9));
+      1e-8));
   keys.push_back(withDefault(integer("maximum_iterations", "", "Newton iterations for one solution.", 1, 10'000), 40));
   keys.push_back(withDefault(
       integer("maximum_ramp_steps", "", "Steps in which the drive may be raised where Newton's method fails from rest.", 1,

@@ -27,7 +27,7 @@ inline const std::string fullScene = R"({
   ],
   "boundary_conditions": [{"name": "rail", "type": "locked", "at": {"geometry": "hooks", "nodes": [0]}, "coordinates": ["x", "y"]}],
   "drives": [
-    {"name": "shake", "type": "rotation", "at": {"geometry": "sheet", "group": "start"}, "axis": [0, 1, 0],
+    {"name": "shake", "type": "rotation", "at": {"geometry": "sheet", "box": {"minimum": [-1, -1, -0.03], "maximum": [1, 1, 0.001]}}, "axis": [0, 1, 0],
      "harmonics": [{"amplitude": "10 deg"}, {"order": 2, "amplitude": "1 deg", "phase": "90 deg"}]}
   ],
   "loads": [
