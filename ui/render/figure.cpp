@@ -14,7 +14,7 @@ namespace {
 
 // Sizes as fractions of the model's extent.
 constexpr double largestMass = 0.024, smallestMass = 0.008, drivenSize = 0.005, fixedSize = 0.006;
-constexpr double hatchPeriod = 9;  // pixels
+constexpr double hatchPeriod = 8;  // device-independent pixels
 
 /// Σ of the point masses on each node [kg].
 std::vector<double> nodeMasses(const mechanics::Model& model, double (*massOf)(const mechanics::PointMass&)) {
@@ -104,14 +104,11 @@ Figure::Figure(Kind kind) : kind_(kind), outline_(kind == Kind::ghost ? 2.0 : 1.
   for (LinePrimitive* lines : {&outline_, &springs_})
     lines->actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -4);
   if (kind == Kind::ghost) {
-    surface_.setHatched(hatchPeriod);
     surface_.actor()->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1, -2);
-    masses_.actor()->GetProperty()->SetOpacity(0.5);
-    masses_.actor()->GetProperty()->BackfaceCullingOn();
-    masses_.actor()->GetProperty()->LightingOff();
   } else {
     surface_.actor()->GetProperty()->EdgeVisibilityOn();
   }
+  setPixelRatio(1.0);
 }
 
 std::vector<vtkActor*> Figure::actors() {
@@ -166,6 +163,8 @@ void Figure::setPixelRatio(double ratio) {
   outline_.setPixelRatio(ratio);
   springs_.setPixelRatio(ratio);
   surface_.actor()->GetProperty()->SetLineWidth(static_cast<float>(ratio));
+  if (kind_ == Kind::ghost)
+    for (vtkActor* actor : {surface_.actor(), masses_.actor()}) setHatched(actor, hatchPeriod * ratio);
 }
 
 }  // namespace pliant::render

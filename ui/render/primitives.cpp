@@ -39,6 +39,17 @@ Points toPoints(const Eigen::VectorXd& positions, int dimension) {
 
 void setColor(vtkActor* actor, const Color& color) { actor->GetProperty()->SetColor(color[0], color[1], color[2]); }
 
+void setHatched(vtkActor* actor, double period) {
+  // Holes rather than blending: VTK blends in a pass of its own that costs more than everything else in software.
+  vtkShaderProperty* shader = actor->GetShaderProperty();
+  shader->ClearAllFragmentShaderReplacements();
+  shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+                                       "//VTK::Light::Impl\n  if (mod(gl_FragCoord.x + gl_FragCoord.y, " +
+                                           std::to_string(period) + ") > " + std::to_string(0.3 * period) + ") discard;\n",
+                                       false);
+  actor->GetProperty()->LightingOff();
+}
+
 SurfacePrimitive::SurfacePrimitive() {
   mapper_->SetInputData(data_);
   mapper_->ScalarVisibilityOff();
@@ -69,19 +80,6 @@ void SurfacePrimitive::setField(const Eigen::VectorXd* field, vtkLookupTable* ta
   mapper_->SetLookupTable(table);
 }
 
-void SurfacePrimitive::setHatched(double period) {
-  // Blended stripes with soft edges over a faint tint: see-through without sorting, and unlike any shaded surface.
-  const std::string stripes =
-      "//VTK::Light::Impl\n"
-      "  float stripe = abs(mod(gl_FragCoord.x + gl_FragCoord.y, " + std::to_string(period) + ") - " +
-      std::to_string(0.5 * period) + ");\n"
-      "  float coverage = 1.0 - smoothstep(" + std::to_string(0.06 * period) + ", " + std::to_string(0.20 * period) + ", stripe);\n"
-      "  gl_FragData[0].a *= mix(0.14, 0.8, coverage);\n";
-  actor_->GetShaderProperty()->AddFragmentShaderReplacement("//VTK::Light::Impl", true, stripes, false);
-  actor_->ForceTranslucentOn();
-  actor_->GetProperty()->LightingOff();
-}
-
 LinePrimitive::LinePrimitive(double width) : width_(width) {
   mapper_->SetInputData(data_);
   mapper_->ScalarVisibilityOff();
@@ -99,6 +97,11 @@ void LinePrimitive::setTopology(const std::vector<std::array<int, 2>>& segments)
 void LinePrimitive::setClosedCurves(const std::vector<Points>& curves, double dash) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
+  std::vector<vtkIdType> line;  // being drawn
+  const auto endLine = [&] {
+    if (!line.empty()) cells->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
+    line.clear();
+  };
   for (const Points& curve : curves) {
     const Eigen::Index count = curve.cols();
     double length = 0;
@@ -107,28 +110,27 @@ void LinePrimitive::setClosedCurves(const std::vector<Points>& curves, double da
     const double pieces = dash > 0 ? 2 * std::max(4.0, std::round(0.5 * length / dash)) : 1;
     const double piece = length / pieces;
     double travelled = 0;
-    bool drawing = false;
     for (Eigen::Index i = 0; i < count; ++i) {
       const Eigen::Vector3d from = curve.col(i), to = curve.col((i + 1) % count);
       const double step = (to - from).norm();
-      // The corners of this edge that bound dashes, as fractions of it.
-      for (double begin = 0; begin < 1;) {
+      const auto addPoint = [&](double part) {
+        line.push_back(points->InsertNextPoint(Eigen::Vector3d(from + part * (to - from)).data()));
+      };
+      for (double begin = 0; step > 0 && begin < 1;) {
+        // Up to the end of this edge, or to where the dash or gap ends on it.
         const double place = std::floor((travelled + begin * step) / piece + 1e-9);
-        const double end = step > 0 ? std::min(1.0, ((place + 1) * piece - travelled) / step) : 1.0;
-        const bool drawn = dash <= 0 || std::fmod(place, 2.0) == 0;
-        if (drawn) {
-          if (!drawing) {
-            cells->InsertNextCell(0);
-            cells->InsertCellPoint(points->InsertNextPoint(Eigen::Vector3d(from + begin * (to - from)).data()));
-          }
-          cells->InsertCellPoint(points->InsertNextPoint(Eigen::Vector3d(from + end * (to - from)).data()));
-          cells->UpdateCellCount(static_cast<int>(cells->GetCellSize(cells->GetNumberOfCells() - 1)));
+        const double end = dash > 0 ? std::min(1.0, ((place + 1) * piece - travelled) / step) : 1.0;
+        if (dash > 0 && std::fmod(place, 2.0) != 0) {
+          endLine();
+        } else {
+          if (line.empty()) addPoint(begin);
+          addPoint(end);
         }
-        drawing = drawn;
         begin = end;
       }
       travelled += step;
     }
+    endLine();
   }
   data_->SetPoints(points);
   data_->SetLines(cells);

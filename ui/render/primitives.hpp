@@ -25,6 +25,9 @@ Points toPoints(const Eigen::VectorXd& positions, int dimension);
 
 void setColor(vtkActor* actor, const Color& color);
 
+/// Stripes on the screen instead of filled surfaces, `period` pixels apart, with holes between them.
+void setHatched(vtkActor* actor, double period);
+
 /// Triangles over all nodes of a model.
 class SurfacePrimitive {
  public:
@@ -34,8 +37,6 @@ class SurfacePrimitive {
   void setPoints(vtkPoints* points) { data_->SetPoints(points); }
   /// One number a triangle, coloured by `table` (null: the actor's colour).
   void setField(const Eigen::VectorXd* field, vtkLookupTable* table);
-  /// Stripes on the screen instead of a filled surface, `period` pixels apart.
-  void setHatched(double period);
 
  private:
   vtkNew<vtkPolyData> data_;

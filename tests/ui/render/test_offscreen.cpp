@@ -157,9 +157,13 @@ void TestOffscreen::drawsModelsOfOneDimension() {
   const auto place = [&](double tau) {
     return findBlob(renderToImage(model, problem, z, tau, options), isMassBlue);
   };
+  // The trajectory, a green line, is as long as the swing.
+  const Blob path = findBlob(renderToImage(model, problem, z, 0, options),
+                             [](int red, int green, int blue) { return green > red + 60 && green > blue + 15; });
   const Blob left = place(-std::numbers::pi / 2), middle = place(0), right = place(std::numbers::pi / 2);
   QVERIFY(left.pixels > 20 && right.pixels > 20);
   QVERIFY(left.x + 100 < right.x);
+  QVERIFY(std::abs(path.left - left.x) < 4 && std::abs(path.right - right.x) < 4);
   QVERIFY(std::abs(middle.x - 0.5 * (left.x + right.x)) < 2);
   QVERIFY(std::abs(left.y - right.y) < 2);
 }
