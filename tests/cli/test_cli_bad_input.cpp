@@ -54,7 +54,7 @@ class TestCliBadInput : public QObject {
     };
     const QByteArray full = QByteArray::fromStdString(test::fullScene);
     row("empty", "", "");
-    row("cut in half", full.left(full.size() / 2), "/springs/2/direction/3");
+    row("cut in half", full.left(full.indexOf("\"wall\"")), "/springs/1/name");
     row("binary", QByteArray("\x7f" "ELF\0\1\2\3\xff\xfe", 10), "");
     row("no scene", "[1, 2, 3]", "");
     row("misspelt key", edited("\"thickness\"", "\"thicknes\""), "/elements/0/thicknes");

@@ -31,6 +31,7 @@ class TestCliCancel : public QObject {
                                    .withValue("/studies/1/maximum_points", 100000);
     scene.save(file.toStdString());
     QProcess process;
+    process.setReadChannel(QProcess::StandardError);
     process.start(PLIANT_CLI, {"run", file, "--out", out, "--study", "response"});
     QVERIFY(process.waitForStarted(-1));
     QByteArray progress;

@@ -17,18 +17,19 @@ inline const std::string fullScene = R"({
   ],
   "materials": [{"name": "pet", "type": "isotropic", "density": "1.38 g/cm^3", "young_modulus": "3.3 GPa", "poisson_ratio": 0.36}],
   "elements": [{"name": "skin", "type": "shell", "geometry": "sheet", "thickness": "0.2 mm"}],
-  "point_masses": [{"name": "tip", "at": {"geometry": "sheet", "group": "end"}, "mass": "2 g"}],
+  "point_masses": [{"name": "tip", "at": {"geometry": "sheet", "group": "end"}, "mass": "2 g"},
+                   {"name": "hook", "at": {"geometry": "hooks", "nodes": [0, 1]}, "mass": "10 g"}],
   "springs": [
     {"name": "tie", "type": "between", "from": {"geometry": "sheet", "nodes": [3]}, "to": {"geometry": "hooks", "nodes": [0]},
      "coefficients": ["10 N/m", 0, "5 N/m^3"]},
-    {"name": "wall", "type": "anchored", "at": {"geometry": "hooks", "nodes": [1]}, "anchor": [0, 0, 1], "rest_length": "10 cm",
+    {"name": "wall", "type": "anchored", "at": {"geometry": "hooks", "nodes": [1]}, "anchor": [0, 0, 1], "rest_length": "50 cm",
      "coefficients": [3]},
-    {"name": "down", "type": "grounded", "at": {"geometry": "hooks", "nodes": [1]}, "direction": [0, 0, 2], "coefficients": [1]}
+    {"name": "down", "type": "grounded", "at": {"geometry": "hooks", "nodes": [0, 1]}, "direction": [0, 0, 2], "coefficients": [20]}
   ],
   "boundary_conditions": [{"name": "rail", "type": "locked", "at": {"geometry": "hooks", "nodes": [0]}, "coordinates": ["x", "y"]}],
   "drives": [
     {"name": "shake", "type": "rotation", "at": {"geometry": "sheet", "box": {"minimum": [-1, -1, -0.03], "maximum": [1, 1, 0.001]}}, "axis": [0, 1, 0],
-     "harmonics": [{"amplitude": "10 deg"}, {"order": 2, "amplitude": "1 deg", "phase": "90 deg"}]}
+     "harmonics": [{"amplitude": "1 deg"}, {"order": 2, "amplitude": "0.1 deg", "phase": "90 deg"}]}
   ],
   "loads": [
     {"name": "weight", "type": "gravity", "acceleration": [0, 0, -9.81]},

@@ -26,7 +26,7 @@ class TestScene : public QObject {
     QCOMPARE(number(scene, "/materials/0/density"), 1380.0);
     QCOMPARE(number(scene, "/materials/0/young_modulus"), 3.3e9);
     QCOMPARE(number(scene, "/springs/0/coefficients/2"), 5.0);
-    QCOMPARE(number(scene, "/drives/0/harmonics/0/amplitude"), std::numbers::pi / 18);
+    QCOMPARE(number(scene, "/drives/0/harmonics/0/amplitude"), std::numbers::pi / 180);
     QCOMPARE(number(scene, "/damping/stiffness_proportional"), 5e-5);
     QCOMPARE(number(scene, "/studies/0/frequency"), 5 * std::numbers::pi);
   }
