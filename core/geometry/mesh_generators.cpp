@@ -96,7 +96,8 @@ SurfaceMesh makeGrid(double length, double width, int lengthCells, int widthCell
   requireCells(widthCells, "the number of cells along the width");
   requireFewCells(static_cast<double>(lengthCells) * widthCells);
   LatticeMesh lattice([&](int i, int j) {
-    return Eigen::Vector3d(length * i / lengthCells, width * (static_cast<double>(j) / widthCells - 0.5), 0);
+    return Eigen::Vector3d(
+        length * (static_cast<double>(i) / lengthCells), width * (static_cast<double>(j) / widthCells - 0.5), 0);
   });
   lattice.addCells(0, lengthCells, 0, widthCells);
   return lattice.finish({{"start", lattice.column(0, 0, widthCells)},

@@ -9,7 +9,8 @@ namespace pliant::geometry {
 /// and "right" (y = -width/2). Throws base::InputError unless lengths are above 0 and there are 1 to 2 million cells.
 SurfaceMesh makeGrid(double length, double width, int lengthCells, int widthCells);
 
-/// A narrow grid, one or two cells wide as a rule: the same with groups "start" and "end" alone.
+/// A narrow grid, one or two cells wide as a rule: the same with groups "start" and "end" alone. Hinge bending wants
+/// cells at least as long as wide (see mechanics::makeHingeBending).
 SurfaceMesh makeStrip(double length, double width, int lengthCells, int widthCells);
 
 /// The tuning-fork outline of thesis Fig. 2.2: a handle along x from 0, a crossbar as deep as the handle is wide, and

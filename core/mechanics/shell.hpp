@@ -25,10 +25,11 @@ std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPosi
 ///   E = Σ ½ D |e|²/(A₁ + A₂) (θ - θ₀)²,  D = Y h³ / (12 (1 - ν²)),
 /// with the rest length |e| of the edge, the rest areas of its two triangles, and the rest angle θ₀ (flat or curved).
 /// The factor ½ D makes a strip that is rolled up along its edges, and an equilateral mesh that is rolled up in any
-/// direction, store D κ²/2 an area (Seung & Nelson 1988 for the latter). A dihedral angle knows no Poisson effect of
-/// its own: bent to a saddle or a dome, an equilateral mesh behaves like a plate with ν = -1/3, a right-angled grid
-/// like one with ν = 0, whatever the material's ν; on irregular meshes the energy depends on the mesh's directions.
-/// Null if there is no interior edge. Throws base::InputError.
+/// direction, store D κ²/2 an area (the latter after Seung & Nelson 1988). A dihedral angle knows no Poisson effect of
+/// its own, so what a mesh does beyond that is its own, whatever the material's ν: equilateral triangles bend like a
+/// plate with ν = -1/3 (a free narrow strip has 8/9 D, where the plate has (1 - ν²) D); a strip of square cells has
+/// about 4/5 D, less if cells are shorter than wide, down to D/2; irregular meshes scatter. Null if there is no
+/// interior edge. Throws base::InputError.
 std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, const Triangles& triangles,
                                                const ShellMaterial& material);
 
