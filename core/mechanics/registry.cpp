@@ -60,7 +60,8 @@ Model randomNodes(std::mt19937& random, int dimension, int count) {
   Model model;
   model.dimension = dimension;
   model.restPositions = randomVector(random, count * dimension, 0.2);
-  for (int node = 0; node < count; ++node) model.restPositions[node * dimension + node % dimension] += 1;
+  for (int node = 0; node < count; ++node)
+    model.restPositions[node * dimension + node % dimension] += 1 + node / dimension;
   return model;
 }
 
@@ -108,8 +109,8 @@ EnergyKind kind(const std::string& name, int dimension, const Example& example) 
 const std::vector<EnergyKind>& energyKinds() {
   static const std::vector<EnergyKind> kinds = [] {
     std::vector<EnergyKind> list;
-    for (const int dimension : {2, 3}) {
-      list.push_back(kind("membrane", dimension, membraneExample));
+    for (const int dimension : {1, 2, 3}) {
+      if (dimension > 1) list.push_back(kind("membrane", dimension, membraneExample));
       list.push_back(kind("spring", dimension, springExample));
       list.push_back(kind("anchored_spring", dimension, anchoredSpringExample));
       list.push_back(kind("grounded_spring", dimension, groundedSpringExample));

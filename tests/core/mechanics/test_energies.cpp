@@ -14,8 +14,10 @@ namespace {
 /// The derivatives are compared at shapes this far from rest, relative to the size of the example.
 constexpr double deformation = 0.15;
 
+double sizeOf(const mechanics::Model& model) { return model.restPositions.cwiseAbs().maxCoeff(); }
+
 Vector randomShape(const mechanics::Model& model, std::mt19937& random) {
-  const double size = model.restPositions.maxCoeff() - model.restPositions.minCoeff();
+  const double size = sizeOf(model);
   std::uniform_real_distribution<double> step(-deformation * size, deformation * size);
   return model.restPositions + Vector::NullaryExpr(model.coordinateCount(), [&] { return step(random); });
 }
@@ -65,7 +67,7 @@ void TestEnergies::gradientIsDerivativeOfValue() {
     const mechanics::ElasticAssembler assembler(model);
     const Vector x = randomShape(*model, random);
     const Vector gradient = assembler.gradient(x);
-    const double size = model->restPositions.maxCoeff() - model->restPositions.minCoeff();
+    const double size = sizeOf(*model);
     for (int i = 0; i < x.size(); ++i) {
       const auto along = [&](double s) { return assembler.value(x + s * Vector::Unit(x.size(), i)); };
       QVERIFY(std::abs(derivative(along, 5e-4 * size) - gradient[i]) <= 1e-8 * gradient.norm());
@@ -79,7 +81,7 @@ void TestEnergies::hessianIsDerivativeOfGradient() {
     const Vector x = randomShape(*model, random);
     const Matrix hessian = assembler.hessian(x);
     QVERIFY(hessian == hessian.transpose());
-    const double size = model->restPositions.maxCoeff() - model->restPositions.minCoeff();
+    const double size = sizeOf(*model);
     for (int i = 0; i < x.size(); ++i) {
       const auto along = [&](double s) -> Vector { return assembler.gradient(x + s * Vector::Unit(x.size(), i)); };
       QVERIFY((derivative(along, 5e-4 * size) - hessian.col(i)).norm() <= 1e-8 * hessian.norm());
@@ -115,8 +117,8 @@ void TestEnergies::rigidMotionsChangeNothing() {
     const int dimension = model->dimension;
     const Vector x = randomShape(*model, random);
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    turn =
-        Eigen::AngleAxisd(1.234, dimension == 2 ? Eigen::Vector3d(0, 0, 1) : Eigen::Vector3d(1, -2, 0.5).normalized());
+    if (dimension == 2) turn = Eigen::AngleAxisd(1.234, Eigen::Vector3d::UnitZ());
+    if (dimension == 3) turn = Eigen::AngleAxisd(1.234, Eigen::Vector3d(1, -2, 0.5).normalized());
     const Matrix rotation = turn.topLeftCorner(dimension, dimension);
     const Vector shift = Vector::LinSpaced(dimension, 0.7, -0.4);
     const Matrix points = x.reshaped(dimension, model->nodeCount());
