@@ -8,7 +8,8 @@ namespace pliant::solvers {
 
 namespace {
 
-constexpr int maximumCorrections = 20;
+constexpr int maximumCorrections = 40;
+constexpr int maximumFactorizations = 10;  ///< for one point
 /// Corrections that shrink less than this from one to the next are not worth going on with: new factors cost about as
 /// much as ten corrections.
 constexpr double slowContraction = 0.3;
@@ -91,8 +92,8 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
   const Eigen::Index n = point.y.size() - 1;
   double previous = 0;
   bool slow = false;
-  bool fresh = false;  // the factors belong to an iterate of this very call
   bool settled = false;
+  factorizations_ = 0;
   for (point.iterations = 0;; ++point.iterations) {
     if (context_->cancelRequested()) return Status::cancelled;
     const Vector x = options_.stateScale * point.y.head(n);
@@ -104,16 +105,17 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
     if (point.iterations == maximumCorrections) return Status::failed;
     if (!factorized_ || slow) {
       parameterDerivative_ = problem_.linearize(x, parameter);
-      if (!refactorize()) return Status::failed;
-      fresh = true;
+      if (factorizations_ == maximumFactorizations || !refactorize()) return Status::failed;
+      ++factorizations_;
       slow = false;
       previous = 0;
     }
     const Vector correction = solveBordered(-h, 0, normal);
     const double size = correction.norm();
     if (!std::isfinite(size)) return Status::failed;
-    if (previous > 0 && size > previous) {  // diverging: drop the correction and try again with new factors, once
-      if (fresh) return Status::failed;
+    // No progress with these factors: drop the correction and go on with those of this iterate. The first iterates of a
+    // thin shell leave its nearly inextensible motions, so that Newton's corrections need not shrink from the start.
+    if (previous > 0 && size > previous) {
       slow = true;
       continue;
     }
@@ -127,7 +129,8 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
 /// The unit tangent at a solution, from the exact Jacobian there, by refinement with the factors that there are.
 ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const Vector& normal) {
   const Eigen::Index n = point.y.size() - 1;
-  parameterDerivative_ = problem_.linearize(options_.stateScale * point.y.head(n), options_.parameterScale * point.y[n]);
+  parameterDerivative_ =
+      problem_.linearize(options_.stateScale * point.y.head(n), options_.parameterScale * point.y[n]);
   if (!factorized_ && !refactorize()) return Status::failed;
   Vector tangent = normal;
   double previous = 0;
@@ -322,20 +325,21 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
     double angle = 0;
     std::vector<Event> events;
     status = advance(hasBefore ? &before : nullptr, current, step, next, angle);
-    const int corrections = next.iterations;
+    const int factorizations = factorizations_;
     if (status == Status::converged) status = locateEvents(current, next, events);
     if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
     if (status == Status::failed) {
       step *= 0.5;
       if (step < options_.minimumStep)
-        return finish(TerminationType::failed, "The continuation is stuck: no step, however short, reaches a solution.");
+        return finish(
+            TerminationType::failed, "The continuation is stuck: no step, however short, reaches a solution.");
       continue;
     }
     for (const Event& event : events) {
       emit(event.point, step, event.kind, event.monitor);
       if (event.end) return finish(TerminationType::converged);
     }
-    const double easy = corrections <= 4 ? 2.0 : corrections <= 8 ? 1.0 : 0.7;
+    const double easy = factorizations <= 3 ? 2.0 : 1.0;
     step *= std::clamp(options_.targetAngle / std::max(angle, 1e-12), 0.5, easy);
     before = current;
     current = next;

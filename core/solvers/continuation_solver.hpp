@@ -49,8 +49,8 @@ class ContinuationProblem {
 struct ContinuationOptions {
   double lower = 0;  ///< the branch is followed while λ stays in [lower, upper]
   double upper = 1;
-  double orientation = 1;     ///< sign of dλ/ds at the start
-  double stateScale = 1;      ///< the arc length is measured in (x / stateScale, λ / parameterScale)
+  double orientation = 1;  ///< sign of dλ/ds at the start
+  double stateScale = 1;   ///< the arc length is measured in (x / stateScale, λ / parameterScale)
   double parameterScale = 1;
   double initialStep = 0.02;
   double minimumStep = 1e-6;
@@ -67,18 +67,19 @@ struct ContinuationOptions {
 /// Follows a branch by pseudo-arclength continuation: cubic Hermite extrapolation of the last two points and their
 /// tangents as predictor, a corrector in the plane normal to it, steps of about equal turning of the tangent.
 ///
-/// Factorisations dominate the cost, so the factors of an earlier point serve as long as corrections shrink quickly with
-/// them; every residual is exact, so only the rate of convergence depends on them. Bordered systems are solved by block
-/// elimination within these iterations, so ∂h/∂x may be nearly singular (at folds).
+/// Factorisations dominate the cost, so the factors of an earlier point serve as long as corrections shrink quickly
+/// with them; every residual is exact, so only the rate of convergence depends on them. Bordered systems are solved by
+/// block elimination within these iterations, so ∂h/∂x may be nearly singular (at folds).
 class ContinuationSolver {
  public:
-  /// Called with each point in the order of the branch; `monitor` is the index of the monitor that vanishes there, or -1.
+  /// Called with each point in the order of the branch; `monitor` is the index of the monitor that vanishes there, or
+  /// -1.
   using PointCallback = std::function<void(const BranchPoint&, BranchEvent, int monitor)>;
 
   ContinuationSolver(ContinuationProblem& problem, const ContinuationOptions& options);
 
-  /// Follows the branch from the solution (x, λ) until λ leaves [lower, upper]; the last point lies exactly on the bound.
-  /// The report has one record a point.
+  /// Follows the branch from the solution (x, λ) until λ leaves [lower, upper]; the last point lies exactly on the
+  /// bound. The report has one record a point.
   base::SolverReport trace(const Eigen::VectorXd& x, double parameter, base::ExecutionContext& context,
                            const PointCallback& onPoint);
 
@@ -120,6 +121,7 @@ class ContinuationSolver {
   ContinuationOptions options_;
   base::ExecutionContext* context_ = nullptr;
   bool factorized_ = false;
+  int factorizations_ = 0;      ///< that the last corrector took
   Vector parameterDerivative_;  ///< ∂h/∂λ where last linearised
   Vector parameterColumn_;      ///< (∂h/∂x)⁻¹ ∂h/∂λ, scaled, with the factors that there are
 };
