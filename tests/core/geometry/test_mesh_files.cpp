@@ -1,4 +1,5 @@
 #include <assimp/scene.h>
+#include <Eigen/Geometry>
 #include <QFile>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -26,6 +27,7 @@ class TestMeshFiles : public QObject {
   void cutFilesNeverCrash_data() { whatIsWrittenReadsBack_data(); }
   void cutFilesNeverCrash();
   void badTargetsAreRefused();
+  void wingOfAnotherGenerator();
 
  private:
   std::filesystem::path path(const std::string& name) const { return folder_.filePath(name.c_str()).toStdString(); }
@@ -157,6 +159,25 @@ void TestMeshFiles::badTargetsAreRefused() {
   QVERIFY_EXCEPTION_THROWN(geometry::readMesh(folder_.path().toStdString(), 1), base::InputError);
   geometry::writeMesh(mesh, path("a.stl"));
   QVERIFY_EXCEPTION_THROWN(geometry::readMesh(path("a.stl"), -1), base::InputError);
+}
+
+void TestMeshFiles::wingOfAnotherGenerator() {
+  const std::filesystem::path file = PLIANT_SOURCE_DIR "/scenes/assets/dragon_wing.stl";
+  const SurfaceMesh mesh = geometry::weldMesh(geometry::readMesh(file, 1), 1e-6);
+  QCOMPARE(mesh.triangles.size(), std::size_t(281));
+  QCOMPARE(mesh.points.cols(), 165);
+  // One piece without holes, V - E + F = 1.
+  QCOMPARE(165 - static_cast<int>(geometry::meshEdges(mesh.triangles).size()) + 281, 1);
+  QVERIFY(mesh.points.row(2).isZero(0));
+  QVERIFY(std::abs(mesh.points.row(0).minCoeff()) <= 1e-7 && std::abs(mesh.points.row(0).maxCoeff() - 0.25) <= 1e-7);
+  for (const auto& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d p = mesh.points.col(triangle[i]);
+      const Eigen::Vector3d u = mesh.points.col(triangle[(i + 1) % 3]) - p;
+      const Eigen::Vector3d v = mesh.points.col(triangle[(i + 2) % 3]) - p;
+      const double angle = std::atan2(u.cross(v).z(), u.dot(v));  // positive: all triangles look upwards
+      QVERIFY(angle > 35 * M_PI / 180 && angle < 110 * M_PI / 180);
+    }
 }
 
 QTEST_GUILESS_MAIN(TestMeshFiles)
