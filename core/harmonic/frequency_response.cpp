@@ -12,13 +12,6 @@ namespace pliant::harmonic {
 
 namespace {
 
-/// The coefficients without their constants.
-Vector oscillation(const HarmonicBalanceProblem& problem, const Vector& z) {
-  Vector swing = z;
-  for (Eigen::Index i = 0; i < swing.size(); i += problem.basis().size()) swing[i] = 0;
-  return swing;
-}
-
 class ResponseBranch final : public solvers::ContinuationProblem {
  public:
   explicit ResponseBranch(const HarmonicBalanceProblem& problem) : problem_(problem), solver_(problem) {}
@@ -37,7 +30,7 @@ class ResponseBranch final : public solvers::ContinuationProblem {
   /// dA/ds of every probe, or of the norm of the oscillation if there is none.
   Vector monitors(const solvers::BranchPoint& point) override {
     const auto& probes = problem_.model().probes;
-    if (probes.empty()) return Vector::Constant(1, oscillation(problem_, point.x).dot(point.direction));
+    if (probes.empty()) return Vector::Constant(1, problem_.oscillation(point.x).dot(point.direction));
     Vector rates(static_cast<Eigen::Index>(probes.size()));
     for (std::size_t p = 0; p < probes.size(); ++p)
       rates[static_cast<Eigen::Index>(p)] =
@@ -59,7 +52,7 @@ void checkRange(const FrequencyResponseOptions& options) {
 solvers::ContinuationOptions continuationOptions(const HarmonicBalanceProblem& problem,
                                                  const FrequencyResponseOptions& options, const Vector& z) {
   const double range = std::abs(options.to - options.from);
-  const double swing = oscillation(problem, z).norm();
+  const double swing = problem.oscillation(z).norm();
   solvers::ContinuationOptions continuation;
   continuation.lower = std::min(options.from, options.to);
   continuation.upper = std::max(options.from, options.to);
@@ -71,7 +64,7 @@ solvers::ContinuationOptions continuationOptions(const HarmonicBalanceProblem& p
   if (options.maximumStep > 0) continuation.maximumStep = options.maximumStep;
   continuation.maximumParameterStep = range / 40;
   continuation.tolerance = options.newton.tolerance;
-  continuation.stepTolerance = options.newton.stepTolerance * z.norm() / continuation.stateScale;
+  continuation.stepTolerance = options.newton.stepTolerance;
   continuation.locationTolerance = options.locationTolerance;
   continuation.maximumPoints = options.maximumPoints;
   return continuation;

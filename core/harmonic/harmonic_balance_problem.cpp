@@ -178,6 +178,12 @@ Vector HarmonicBalanceProblem::constantCoefficients(const Vector& configuration)
   return coefficients.reshaped();
 }
 
+Vector HarmonicBalanceProblem::oscillation(const Vector& z) const {
+  Vector swing = z;
+  for (Eigen::Index i = 0; i < swing.size(); i += basis().size()) swing[i] = 0;
+  return swing;
+}
+
 void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian) const {
   const Structure& s = *structure_;
   Workspace& w = *workspace_;

@@ -71,6 +71,8 @@ class HarmonicBalanceProblem {
   const Vector& steadyForce() const;
   /// Coefficients of a motionless configuration (size n * dimension).
   Vector constantCoefficients(const Vector& configuration) const;
+  /// The coefficients with their constants set to zero: the swing about the mean position.
+  Vector oscillation(const Vector& z) const;
 
   /// h(z, ω), size().
   Vector residual(const Vector& z, double omega) const;

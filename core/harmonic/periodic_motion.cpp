@@ -94,7 +94,7 @@ class MotionSearch {
     newton.tolerance = options_.tolerance;
     newton.residualScale = problem_.forceScale(omega_);
     newton.stepTolerance = options_.stepTolerance;
-    newton.stepScale = start.norm();
+    newton.stepScale = std::max(problem_.oscillation(start).norm(), 1e-6 * start.norm());
     newton.maximumIterations = options_.maximumIterations;
     motion_.z = start;
     motion_.report = solvers::solveNewton(system, motion_.z, newton, context_);
@@ -131,7 +131,7 @@ class MotionSearch {
     continuation.targetAngle = 0.4;
     continuation.maximumAngle = 1.2;
     continuation.tolerance = options_.tolerance;
-    continuation.stepTolerance = options_.stepTolerance * steady_.norm() / continuation.stateScale;
+    continuation.stepTolerance = options_.stepTolerance;
     continuation.maximumPoints = options_.maximumRampSteps;
     solvers::ContinuationSolver solver(ramp, continuation);
     solvers::BranchPoint last;

@@ -8,7 +8,7 @@ namespace pliant::harmonic {
 
 struct PeriodicMotionOptions {
   double tolerance = 1e-9;       ///< on ‖h‖ / forceScale
-  double stepTolerance = 1e-11;  ///< a Newton step shorter than this, relative to ‖z‖, also counts as converged
+  double stepTolerance = 1e-10;  ///< a correction of z below this, relative to the swing, also counts as converged
   int maximumIterations = 40;    ///< Newton iterations a drive level
   int maximumRampSteps = 64;     ///< levels by which the drive may be ramped up where Newton from rest fails
 };

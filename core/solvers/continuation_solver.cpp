@@ -116,6 +116,7 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
     // No progress with these factors: drop the correction and go on with those of this iterate. The first iterates of a
     // thin shell leave its nearly inextensible motions, so that Newton's corrections need not shrink from the start.
     if (previous > 0 && size > previous) {
+      if (previous <= options_.roundingTolerance) return Status::converged;
       slow = true;
       continue;
     }

@@ -60,6 +60,7 @@ struct ContinuationOptions {
   double maximumAngle = 0.5;            ///< a step by which it turns more is rejected [rad]
   double tolerance = 1e-9;              ///< on the scaled residual
   double stepTolerance = 1e-10;         ///< a shorter (scaled) correction also counts as converged
+  double roundingTolerance = 1e-7;      ///< as in NewtonOptions, in the scaled measure
   double locationTolerance = 1e-6;      ///< relative error of λ at located folds and monitors
   int maximumPoints = 2000;
 };

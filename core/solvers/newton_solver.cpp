@@ -1,23 +1,35 @@
 #include "core/solvers/newton_solver.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 namespace pliant::solvers {
 
+using base::TerminationType;
+
 namespace {
 
 constexpr double sufficientDecrease = 1e-4;
-constexpr double shortestStep = 1e-6;
 
-/// The step length that a parabola through ½‖r‖² at 0 (with Newton's slope -‖r‖²) and at `length` suggests.
-double shorten(double length, double norm, double trialNorm) {
-  if (!std::isfinite(trialNorm)) return 0.25 * length;
-  const double start = 0.5 * norm * norm;
-  const double end = 0.5 * trialNorm * trialNorm;
-  const double suggested = start * length * length / (end - start + 2 * start * length);
-  return std::clamp(suggested, 0.1 * length, 0.5 * length);
+/// A point along a Newton step.
+struct Trial {
+  Eigen::VectorXd x;
+  double norm = 0;             ///< ‖r‖
+  Eigen::VectorXd correction;  ///< what the Jacobian at the start of the step makes of r; empty if r is not finite
+  bool accepted = false;
+};
+
+Trial tryStep(NonlinearSystem& system, const Eigen::VectorXd& x, double norm, const Eigen::VectorXd& step,
+              double length) {
+  Trial trial;
+  trial.x = x + length * step;
+  const Eigen::VectorXd residual = system.residual(trial.x);
+  trial.norm = residual.norm();
+  if (!std::isfinite(trial.norm)) return trial;
+  trial.correction = -system.solve(residual);
+  trial.accepted = trial.norm <= (1 - sufficientDecrease * length) * norm ||
+                   trial.correction.norm() <= (1 - 0.25 * length) * step.norm();
+  return trial;
 }
 
 }  // namespace
@@ -26,19 +38,18 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
                                base::ExecutionContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   base::SolverReport report;
-  const auto finish = [&](base::TerminationType termination, const char* message = "") {
+  const auto finish = [&](TerminationType termination, const char* message = "") {
     report.termination = termination;
     report.message = message;
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return report;
   };
-  using base::TerminationType;
 
-  double norm = system.residual(x).norm();
+  Eigen::VectorXd residual = system.residual(x);
+  double norm = residual.norm();
   report.iterations.push_back({0, norm / options.residualScale, 0});
   if (!std::isfinite(norm)) return finish(TerminationType::failed, "The residual is not finite at the starting point.");
 
-  Eigen::VectorXd residual;
   for (int iteration = 1;; ++iteration) {
     if (norm <= options.tolerance * options.residualScale) return finish(TerminationType::converged);
     if (context.cancelRequested()) return finish(TerminationType::cancelled, "Newton's method was cancelled.");
@@ -50,21 +61,20 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
     if (!std::isfinite(stepNorm)) return finish(TerminationType::failed, "The Jacobian is singular.");
 
     double length = 1;
-    Eigen::VectorXd trial = x + step;
-    double trialNorm = system.residual(trial).norm();
-    const bool settled = stepNorm <= options.stepTolerance * options.stepScale;
-    if (settled && !(trialNorm < norm)) return finish(TerminationType::converged);
-    while (!(trialNorm <= std::sqrt(1 - 2 * sufficientDecrease * length) * norm) && !settled) {
-      length = shorten(length, norm, trialNorm);
-      if (length < shortestStep)
-        return finish(TerminationType::failed, "The line search found no step that lowers the residual.");
-      trial = x + length * step;
-      trialNorm = system.residual(trial).norm();
+    Trial trial = tryStep(system, x, norm, step, length);
+    if (!trial.accepted && stepNorm <= options.roundingTolerance * options.stepScale)
+      return finish(TerminationType::converged);
+    while (!trial.accepted) {
+      length *= 0.5;
+      if (length < options.shortestStep)
+        return finish(TerminationType::failed, "The line search found no step that brings the iteration closer.");
+      trial = tryStep(system, x, norm, step, length);
     }
-    x = trial;
-    norm = trialNorm;
+    x = trial.x;
+    norm = trial.norm;
     report.iterations.push_back({iteration, norm / options.residualScale, length});
-    if (settled) return finish(TerminationType::converged);
+    if (length == 1 && trial.correction.norm() <= options.stepTolerance * options.stepScale)
+      return finish(TerminationType::converged);
   }
 }
 

@@ -146,6 +146,7 @@ StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssemb
   newton.residualScale = structure.forceScale();
   newton.stepTolerance = options.stepTolerance;
   newton.stepScale = size;
+  newton.roundingTolerance = 10 * options.stepTolerance;
   newton.maximumIterations = options.maximumIterations;
 
   StaticEquilibrium result;
