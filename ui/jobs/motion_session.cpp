@@ -206,9 +206,7 @@ void MotionSession::update() {
   if (document_.isEmpty()) return;
   const auto model = document_.model();
   if (!shown_ || shown_->problem->model().nodeCount() != model->nodeCount()) {
-    follow_ = true;
-    followed_.reset();
-    studies_.runOutdated();
+    runAll();
     return;
   }
   follow_ = false;

@@ -43,7 +43,8 @@ void StudyRunner::runAll() {
 void StudyRunner::runOutdated() {
   std::vector<std::string> names;
   for (const auto& study : document_.studies())
-    if (study.status != StudyStatus::solved || study.stale) names.push_back(study.name);
+    if ((study.result && study.stale) || study.status == StudyStatus::running || study.status == StudyStatus::waiting)
+      names.push_back(study.name);
   run(std::move(names));
 }
 

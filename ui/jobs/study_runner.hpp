@@ -21,7 +21,7 @@ class StudyRunner final : public QObject {
   /// Runs these studies one after another, single motions first since they are quick to show.
   void run(std::vector<std::string> names);
   void runAll();
-  /// The studies whose results are stale, cancelled, failed or missing.
+  /// The studies whose results are stale, and those under way, from the beginning.
   void runOutdated();
   void cancel();
   bool isRunning() const { return !running_.empty(); }

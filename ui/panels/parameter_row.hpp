@@ -1,0 +1,60 @@
+#pragma once
+
+#include <QWidget>
+
+#include "core/mechanics/design_parameter.hpp"
+#include "ui/document/document.hpp"
+
+class QLabel;
+class QToolButton;
+
+namespace pliant::panels {
+
+class EffectBar;
+class ParameterSlider;
+class ValueField;
+
+/// One design parameter: name, symbol, value, slider with bounds, reset, and what it does to the amplitude.
+class ParameterRow final : public QWidget {
+  Q_OBJECT
+
+ public:
+  ParameterRow(document::Document& document, std::shared_ptr<const mechanics::DesignParameter> parameter,
+               QWidget* parent = nullptr);
+
+  const std::string& pointer() const { return pointer_; }
+  ParameterSlider* slider() const { return slider_; }
+  ValueField* field() const { return field_; }
+  EffectBar* effectBar() const { return effect_; }
+
+  /// Value and bounds as the scene has them now.
+  void refresh();
+  /// The value that the shown motion was solved with.
+  void setReference(double value);
+  /// d(amplitude)/d(parameter), SI, and the largest effect |slope · value| of all parameters.
+  void setSlope(double slope, double largestEffect);
+  void clearSlope();
+
+ Q_SIGNALS:
+  /// The handle moves; the value has the digits that would be written.
+  void dragged(const std::string& pointer, double value);
+  void dragEnded();
+
+ private:
+  void commit(double value, bool nudge);
+  void type(const QString& text);
+  void resetValue();
+
+  document::Document& document_;
+  std::shared_ptr<const mechanics::DesignParameter> parameter_;
+  std::string pointer_;
+  base::ParameterSpec spec_;
+  ParameterSlider* slider_;
+  ValueField* field_;
+  EffectBar* effect_;
+  QToolButton* reset_;
+  QLabel* low_;
+  QLabel* high_;
+};
+
+}  // namespace pliant::panels

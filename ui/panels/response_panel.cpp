@@ -1,0 +1,254 @@
+#include "ui/panels/response_panel.hpp"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <algorithm>
+
+#include "ui/panels/parameter_panel.hpp"
+
+namespace pliant::panels {
+
+using document::StudyStatus;
+using jobs::AmplitudeMeasure;
+using plots::ResponseCurve;
+using plots::ResponsePlace;
+
+namespace {
+
+const QString amplitudeTopic = QStringLiteral("amplitudes");
+
+bool isCurve(const document::StudyState& study) { return study.type == "frequency_response"; }
+
+double probeAmplitude(const harmonic::ResponsePoint& point, std::size_t probe, AmplitudeMeasure measure) {
+  if (probe >= point.amplitudes.size()) return 0;
+  const harmonic::Amplitude& amplitude = point.amplitudes[probe];
+  return measure == AmplitudeMeasure::pathLength ? amplitude.pathLength : amplitude.maximumDisplacement;
+}
+
+int probeOf(const mechanics::Model& model, int node) {
+  for (std::size_t i = 0; i < model.probes.size(); ++i)
+    if (model.probes[i].node == node) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& session, jobs::JobRunner& quick,
+                             QWidget* parent)
+    : QWidget(parent), document_(document), session_(session), quick_(quick) {
+  studies_ = new QComboBox;
+  studies_->setToolTip(tr("Which study's curve is shown"));
+  nodes_ = new QComboBox;
+  nodes_->setToolTip(tr("Whose amplitude is shown; click a node in the viewport to choose another"));
+  nodes_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  measures_ = new QComboBox;
+  measures_->addItem(tr("path length"));
+  measures_->addItem(tr("largest displacement"));
+  measures_->setToolTip(
+      tr("Path length: the way the node travels in one period.\n"
+         "Largest displacement: how far it gets from its mean position."));
+  unit_ = new QToolButton;
+  unit_->setCheckable(true);
+  unit_->setText(QStringLiteral("rad/s"));
+  unit_->setMinimumWidth(64);
+  unit_->setToolTip(tr("Frequency in rad/s or Hz"));
+  for (QWidget* widget : {static_cast<QWidget*>(studies_), static_cast<QWidget*>(nodes_),
+                          static_cast<QWidget*>(measures_), static_cast<QWidget*>(unit_)})
+    widget->setFixedHeight(28);
+  plot_ = new plots::ResponsePlot;
+
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(16, 8, 16, 8);
+  head->setSpacing(8);
+  head->addWidget(studies_);
+  head->addWidget(new QLabel(tr("Amplitude of")));
+  head->addWidget(nodes_);
+  head->addWidget(new QLabel(tr("by")));
+  head->addWidget(measures_);
+  head->addStretch();
+  head->addWidget(unit_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addLayout(head);
+  column->addWidget(plot_, 1);
+
+  connect(studies_, &QComboBox::activated, this, &ResponsePanel::chooseStudy);
+  connect(nodes_, &QComboBox::activated, this, [this] { session_.selectNode(nodes_->currentData().toInt()); });
+  connect(measures_, &QComboBox::activated, this, [this](int index) {
+    session_.setMeasure(index == 0 ? AmplitudeMeasure::pathLength : AmplitudeMeasure::maximumDisplacement);
+  });
+  connect(unit_, &QToolButton::toggled, this, [this](bool hertz) {
+    setHertz(hertz);
+    Q_EMIT hertzChanged(hertz);
+  });
+  connect(plot_, &plots::ResponsePlot::pointChosen, this, [this](int index) { session_.showPoint(study_, index); });
+  connect(plot_, &plots::ResponsePlot::frequencyRequested, this,
+          [this](double omega, int nearest) { session_.solveAt(omega, study_, nearest); });
+  connect(plot_, &plots::ResponsePlot::updateRequested, &session_, &jobs::MotionSession::update);
+  connect(plot_, &plots::ResponsePlot::emptyActionTriggered, this, [this] {
+    if (!study_.empty()) session_.run({study_});
+  });
+  connect(plot_, &plots::ResponsePlot::readoutChanged, this, &ResponsePanel::readoutChanged);
+
+  connect(&document_, &document::Document::sceneReplaced, this, &ResponsePanel::rebuild);
+  connect(&document_, &document::Document::sceneEdited, this, [this] {
+    fillNodes();
+    refreshCurve();
+    refreshMarkers();
+  });
+  connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
+    if (name == study_) refreshCurve();
+  });
+  connect(&session_, &jobs::MotionSession::nodeChanged, this, [this] {
+    fillNodes();
+    refreshCurve();
+    refreshMarkers();
+  });
+  connect(&session_, &jobs::MotionSession::measureChanged, this, [this] {
+    measures_->setCurrentIndex(session_.measure() == AmplitudeMeasure::pathLength ? 0 : 1);
+    refreshCurve();
+    refreshMarkers();
+  });
+  connect(&session_, &jobs::MotionSession::shownChanged, this, &ResponsePanel::refreshMarkers);
+  connect(&session_, &jobs::MotionSession::predictionChanged, this, &ResponsePanel::refreshMarkers);
+  rebuild();
+}
+
+void ResponsePanel::setHertz(bool hertz) {
+  unit_->setChecked(hertz);
+  unit_->setText(hertz ? QStringLiteral("Hz") : QStringLiteral("rad/s"));
+  plot_->setHertz(hertz);
+}
+
+void ResponsePanel::rebuild() {
+  drawn_.reset();
+  plot_->clear();
+  const QSignalBlocker block(studies_);
+  studies_->clear();
+  for (const auto& study : document_.studies())
+    if (isCurve(study)) studies_->addItem(QString::fromStdString(study.name));
+  studies_->setVisible(studies_->count() > 1);
+  fillNodes();
+  chooseStudy();
+}
+
+void ResponsePanel::fillNodes() {
+  const QSignalBlocker block(nodes_);
+  nodes_->clear();
+  if (document_.isEmpty()) return;
+  const mechanics::Model& model = *document_.model();
+  for (const auto& probe : model.probes) nodes_->addItem(QString::fromStdString(probe.name), probe.node);
+  if (probeOf(model, session_.node()) < 0) nodes_->addItem(nodeName(model, session_.node()), session_.node());
+  nodes_->setCurrentIndex(nodes_->findData(session_.node()));
+}
+
+void ResponsePanel::chooseStudy() {
+  study_ = studies_->currentText().toStdString();
+  drawn_.reset();
+  plot_->clear();
+  refreshEmptyState();
+  refreshCurve();
+  refreshMarkers();
+}
+
+void ResponsePanel::refreshEmptyState() {
+  if (document_.isEmpty())
+    plot_->setEmptyState(tr("Open a scene to see how far it swings at which frequency."), {});
+  else if (study_.empty())
+    plot_->setEmptyState(tr("A study of the type frequency_response fills this plot. This scene has none."), {});
+  else
+    plot_->setEmptyState(tr("The study “%1” traces how far a node swings at which frequency.").arg(study_.c_str()),
+                         tr("Run %1").arg(study_.c_str()));
+}
+
+void ResponsePanel::refreshCurve() {
+  const document::StudyState* study = document_.study(study_);
+  if (!study) return;
+  for (const auto& entry : document_.valueAt("/studies"))
+    if (entry.value("name", "") == study_) plot_->setFrequencyRange(entry.value("from", 0.0), entry.value("to", 0.0));
+  const QString measure = session_.measure() == AmplitudeMeasure::pathLength ? tr("Path length") : tr("Displacement");
+  plot_->setAmplitudeLabel(measure);
+  const auto result = std::dynamic_pointer_cast<const scene::HarmonicResult>(study->result);
+  drawn_ = result;
+  if (!result) {
+    quick_.cancelTopic(amplitudeTopic);
+    showCurves(nullptr, {});
+    return;
+  }
+  const int node = session_.node();
+  const int probe = probeOf(result->problem->model(), node);
+  if (probe >= 0) {
+    std::vector<double> amplitudes;
+    for (const auto& point : result->points)
+      amplitudes.push_back(probeAmplitude(point, static_cast<std::size_t>(probe), session_.measure()));
+    showCurves(result.get(), amplitudes);
+    return;
+  }
+  if (node >= result->problem->model().nodeCount()) return;
+  jobs::Job job;
+  job.topic = amplitudeTopic;
+  job.title = tr("Amplitude of node %1").arg(node);
+  job.work = [this, result, node, measure = session_.measure()](
+                 base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
+    std::vector<double> amplitudes;
+    for (const auto& point : result->points) {
+      if (context.cancelRequested()) return {};
+      amplitudes.push_back(jobs::amplitudeOf(*result->problem, point.z, node, measure));
+    }
+    return [this, result, amplitudes] {
+      if (drawn_ == result) showCurves(result.get(), amplitudes);
+    };
+  };
+  quick_.submit(std::move(job));
+}
+
+void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::vector<double>& amplitudes) {
+  const document::StudyState& study = *document_.study(study_);
+  std::vector<ResponseCurve> curves;
+  if (result) {
+    const mechanics::Model& model = result->problem->model();
+    const int node = session_.node();
+    ResponseCurve selected;
+    selected.name = nodeName(model, node);
+    selected.amplitude = amplitudes;
+    for (const auto& point : result->points) {
+      selected.omega.push_back(point.omega);
+      // A peak belongs to one probe; folds to all.
+      const bool others =
+          point.kind == harmonic::PointKind::peak && point.probe >= 0 && point.probe != probeOf(model, node);
+      selected.kinds.push_back(others ? harmonic::PointKind::regular : point.kind);
+    }
+    curves.push_back(selected);
+    for (std::size_t probe = 0; probe < model.probes.size(); ++probe) {
+      if (model.probes[probe].node == node) continue;
+      ResponseCurve other;
+      other.name = QString::fromStdString(model.probes[probe].name);
+      other.omega = selected.omega;
+      for (const auto& point : result->points)
+        other.amplitude.push_back(probeAmplitude(point, probe, session_.measure()));
+      curves.push_back(std::move(other));
+    }
+  }
+  plot_->setCurves(std::move(curves), 0, study.status, study.stale, study.message);
+}
+
+void ResponsePanel::refreshMarkers() {
+  const auto& shown = session_.shown();
+  if (!shown) {
+    plot_->setShownMotion(std::nullopt);
+    plot_->setPrediction(std::nullopt);
+    return;
+  }
+  plot_->setShownMotion(ResponsePlace{shown->motion.omega, session_.shownAmplitude()});
+  const auto predicted = session_.predictedAmplitude();
+  if (predicted)
+    plot_->setPrediction(ResponsePlace{shown->motion.omega, *predicted});
+  else
+    plot_->setPrediction(std::nullopt);
+}
+
+}  // namespace pliant::panels

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <string>
+
+#include "ui/jobs/motion_session.hpp"
+#include "ui/plots/response_plot.hpp"
+
+class QComboBox;
+class QToolButton;
+
+namespace pliant::panels {
+
+/// The frequency-response plot with what it is a plot of: study, node, measure of the amplitude, unit of the frequency.
+/// Amplitudes of a node that is no probe are computed as a job.
+class ResponsePanel final : public QWidget {
+  Q_OBJECT
+
+ public:
+  ResponsePanel(document::Document& document, jobs::MotionSession& session, jobs::JobRunner& quick,
+                QWidget* parent = nullptr);
+
+  plots::ResponsePlot* plot() const { return plot_; }
+  /// The study whose curve is shown; empty if the scene has none.
+  std::string study() const { return study_; }
+  void setHertz(bool hertz);
+
+ Q_SIGNALS:
+  void readoutChanged(const QString& text);
+  void hertzChanged(bool hertz);
+
+ private:
+  void rebuild();
+  void fillNodes();
+  void chooseStudy();
+  void refreshCurve();
+  void showCurves(const scene::HarmonicResult* result, const std::vector<double>& amplitudes);
+  void refreshMarkers();
+  void refreshEmptyState();
+
+  document::Document& document_;
+  jobs::MotionSession& session_;
+  jobs::JobRunner& quick_;
+  std::string study_;
+  std::shared_ptr<const scene::Result> drawn_;
+  QComboBox* studies_;
+  QComboBox* nodes_;
+  QComboBox* measures_;
+  QToolButton* unit_;
+  plots::ResponsePlot* plot_;
+};
+
+}  // namespace pliant::panels

@@ -1,0 +1,139 @@
+#include "ui/shell/gallery.hpp"
+
+#include <QDir>
+#include <QDirIterator>
+#include <QFile>
+#include <QFileInfo>
+#include <QGridLayout>
+#include <QImage>
+#include <QLabel>
+#include <QPointer>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/scene/scene.hpp"
+#include "ui/shell/shipped_files.hpp"
+#include "ui/shell/thumbnail.hpp"
+
+namespace pliant::shell {
+
+namespace {
+
+constexpr QSize cardSize(256, 232);
+constexpr QSize pictureSize(240, 128);
+
+/// A card that is one big button: picture, title, description.
+QPushButton* makeCard(const GalleryScene& scene, QLabel*& picture) {
+  auto* card = new QPushButton;
+  card->setFixedSize(cardSize);
+  card->setCursor(Qt::PointingHandCursor);
+  card->setAccessibleName(scene.title);
+  card->setToolTip(scene.file);
+  auto* column = new QVBoxLayout(card);
+  column->setContentsMargins(8, 8, 8, 8);
+  column->setSpacing(4);
+  picture = new QLabel;
+  picture->setFixedSize(pictureSize);
+  auto* title = new QLabel(scene.title);
+  QFont strong = title->font();
+  strong.setWeight(QFont::DemiBold);
+  title->setFont(strong);
+  auto* description = new QLabel(scene.description);
+  description->setWordWrap(true);
+  description->setAlignment(Qt::AlignTop);
+  description->setForegroundRole(QPalette::PlaceholderText);
+  for (QLabel* label : {picture, title, description}) {
+    label->setAttribute(Qt::WA_TransparentForMouseEvents);
+    column->addWidget(label);
+  }
+  column->setStretch(2, 1);
+  return card;
+}
+
+}  // namespace
+
+std::vector<GalleryScene> shippedScenes() {
+  std::vector<GalleryScene> scenes;
+  QDirIterator files(
+      shippedFile(QStringLiteral("scenes")), {QStringLiteral("*.json")}, QDir::Files, QDirIterator::Subdirectories);
+  while (files.hasNext()) {
+    const QString path = files.next();
+    QFile file(path);
+    if (!file.open(QIODevice::ReadOnly)) continue;
+    const auto json = scene::Json::parse(file.readAll().toStdString(), nullptr, false);
+    if (!json.is_object() || !json.contains("schema_version")) continue;
+    const auto text = [&](const char* key) {
+      const auto found = json.find(key);
+      return found != json.end() && found->is_string() ? QString::fromStdString(found->get<std::string>()) : QString();
+    };
+    QString title = text("title");
+    if (title.isEmpty()) title = QFileInfo(path).completeBaseName();
+    scenes.push_back({path, title, text("description")});
+  }
+  std::sort(scenes.begin(), scenes.end(),
+            [](const GalleryScene& a, const GalleryScene& b) { return a.title.localeAwareCompare(b.title) < 0; });
+  return scenes;
+}
+
+Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), quick_(quick) {
+  setAutoFillBackground(true);
+  setBackgroundRole(QPalette::Base);
+  auto* head = new QLabel(tr("Begin with a scene"));
+  QFont large = font();
+  large.setPointSizeF(font().pointSizeF() * 1.8);
+  head->setFont(large);
+  auto* text = new QLabel(tr("Choose one of these, drop a scene file here, or"));
+  text->setForegroundRole(QPalette::PlaceholderText);
+  auto* open = new QPushButton(tr("Open…"));
+  connect(open, &QPushButton::clicked, this, &Gallery::openRequested);
+  auto* line = new QHBoxLayout;
+  line->setSpacing(8);
+  line->addWidget(text);
+  line->addWidget(open);
+  line->addStretch();
+
+  auto* cards = new QWidget;
+  auto* grid = new QGridLayout(cards);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setSpacing(16);
+  constexpr int columns = 4;
+  int index = 0;
+  for (const GalleryScene& scene : shippedScenes()) {
+    QLabel* picture = nullptr;
+    QPushButton* card = makeCard(scene, picture);
+    connect(card, &QPushButton::clicked, this, [this, file = scene.file] { Q_EMIT sceneChosen(file); });
+    grid->addWidget(card, index / columns, index % columns);
+    ++index;
+    jobs::Job job;
+    job.topic = QStringLiteral("thumbnail: ") + scene.file;
+    job.title = tr("Picture of %1").arg(scene.title);
+    job.work = [file = scene.file, picture = QPointer<QLabel>(picture), palette = palette(),
+                ratio = devicePixelRatioF()](base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
+      if (context.cancelRequested()) return {};
+      const QImage image = thumbnail(file, pictureSize, ratio, palette);
+      return [picture, image] {
+        if (picture) picture->setPixmap(QPixmap::fromImage(image));
+      };
+    };
+    quick_.submit(std::move(job));
+  }
+  grid->setColumnStretch(columns, 1);
+  grid->setRowStretch(index / columns + 1, 1);
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(cards);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->viewport()->setBackgroundRole(QPalette::Base);
+  cards->setBackgroundRole(QPalette::Base);
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(48, 40, 48, 40);
+  column->setSpacing(16);
+  column->addWidget(head);
+  column->addLayout(line);
+  column->addWidget(scroll, 1);
+}
+
+}  // namespace pliant::shell

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <QMainWindow>
+
+#include "ui/document/document.hpp"
+#include "ui/document/recent_files.hpp"
+#include "ui/jobs/job_runner.hpp"
+#include "ui/jobs/motion_session.hpp"
+#include "ui/jobs/study_runner.hpp"
+#include "ui/shell/action_registry.hpp"
+#include "ui/shell/theme.hpp"
+
+class QLabel;
+class QMenu;
+class QStackedWidget;
+class QToolButton;
+
+namespace pliant::panels {
+class LogPanel;
+class MessageBar;
+class ParameterPanel;
+class ResponsePanel;
+class SceneTree;
+}  // namespace pliant::panels
+
+namespace pliant::viewport {
+class Viewport;
+}
+
+namespace pliant::shell {
+
+class CommandPalette;
+class Gallery;
+class JobStatus;
+
+/// Puts document, jobs, viewport, plot and panels together. Without `remember` nothing is read from or written to the
+/// user's settings.
+class MainWindow final : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  explicit MainWindow(bool remember, QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// Reads a scene in the background and shows it; what is open stays if it is bad. Runs its studies if `run`.
+  void openFile(const QString& file, bool run = false);
+
+  document::Document& document() { return document_; }
+  jobs::MotionSession& session() { return session_; }
+  ActionRegistry& actions() { return actions_; }
+  viewport::Viewport& viewport() { return *viewport_; }
+  panels::ParameterPanel& parameters() { return *parameters_; }
+  panels::ResponsePanel& response() { return *response_; }
+  panels::MessageBar& messages() { return *messages_; }
+  panels::SceneTree& sceneTree() { return *tree_; }
+
+  QSize sizeHint() const override { return {1280, 800}; }
+
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void buildCentre();
+  void buildDocks();
+  void buildStatusBar();
+  void connectParts();
+  void makeActions();
+  void makeMenus();
+  void makeToolBar();
+  void fillStudyMenu(QMenu* menu);
+  void fillRecentMenu(QMenu* menu);
+
+  void chooseFile();
+  bool save();
+  bool saveAs();
+  void exportShown();
+  void keepUnsaved();
+  void showScene();
+  void report(base::Severity severity, const QString& sentence);
+  void reportUpdate(double predicted, double solved);
+  void refreshActions();
+  void refreshTitle();
+  void resetParameters();
+  void selectNextProbe();
+  void openPalette();
+  void setTheme(Theme theme);
+  void setDocksVisible(bool visible);
+  void restoreSettings();
+  void storeSettings() const;
+
+  bool remember_;
+  document::Document document_;
+  jobs::JobRunner studyJobs_;
+  jobs::JobRunner quickJobs_;
+  jobs::StudyRunner studies_;
+  jobs::MotionSession session_;
+  document::RecentFiles recent_;
+  ActionRegistry actions_;
+  Theme theme_ = Theme::system;
+
+  QStackedWidget* pages_ = nullptr;
+  Gallery* gallery_ = nullptr;
+  viewport::Viewport* viewport_ = nullptr;
+  panels::MessageBar* messages_ = nullptr;
+  panels::SceneTree* tree_ = nullptr;
+  panels::ParameterPanel* parameters_ = nullptr;
+  panels::ResponsePanel* response_ = nullptr;
+  panels::LogPanel* log_ = nullptr;
+  JobStatus* status_ = nullptr;
+  QLabel* readout_ = nullptr;
+  QToolButton* warnings_ = nullptr;
+  CommandPalette* palette_ = nullptr;
+  std::vector<QDockWidget*> docks_;
+};
+
+}  // namespace pliant::shell

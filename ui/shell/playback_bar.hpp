@@ -1,0 +1,32 @@
+#pragma once
+
+#include <QWidget>
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QSlider;
+
+namespace pliant::viewport {
+class Viewport;
+}
+
+namespace pliant::shell {
+
+/// Plays the motion of a viewport, and shows and sets the place in its period.
+class PlaybackBar final : public QWidget {
+  Q_OBJECT
+
+ public:
+  PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWidget* parent = nullptr);
+
+ private:
+  void showTau(double tau);
+
+  viewport::Viewport& viewport_;
+  QSlider* scrub_;
+  QLabel* place_;
+  QComboBox* speed_;
+};
+
+}  // namespace pliant::shell

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <QObject>
+
+#include "ui/jobs/motion_session.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace pliant::shell {
+
+/// Shows the document's model and the session's motion and prediction in a viewport, and brings picks back.
+class ViewportLink final : public QObject {
+  Q_OBJECT
+
+ public:
+  ViewportLink(document::Document& document, jobs::MotionSession& session, viewport::Viewport& viewport,
+               QObject* parent = nullptr);
+
+ private:
+  void showModel();
+  void showMotion();
+  void showPrediction();
+  QString caption() const;
+
+  document::Document& document_;
+  jobs::MotionSession& session_;
+  viewport::Viewport& viewport_;
+  std::shared_ptr<const mechanics::Model> drawn_;
+};
+
+}  // namespace pliant::shell
