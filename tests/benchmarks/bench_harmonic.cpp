@@ -1,0 +1,101 @@
+/// `pliant-bench harmonic [--json FILE]`: every study of every scene in scenes/harmonic, timed, with the part of the
+/// time that its evaluations, factorisations and solves took.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/harmonic/frequency_response.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/model_builder.hpp"
+
+namespace {
+
+using namespace pliant;
+using scene::Json;
+
+struct Run {
+  base::SolverReport report;
+  int iterations = 0;
+};
+
+Run run(harmonic::HarmonicBalanceProblem& problem, const Json& study) {
+  base::ExecutionContext context;
+  harmonic::PeriodicMotionOptions newton;
+  newton.tolerance = study["tolerance"];
+  if (study["type"] == "periodic_motion") {
+    Run result{harmonic::solvePeriodicMotion(problem, study["frequency"], newton, context).report};
+    result.iterations = static_cast<int>(result.report.iterations.size()) - 1;
+    return result;
+  }
+  harmonic::FrequencyResponseOptions options;
+  options.from = study["from"];
+  options.to = study["to"];
+  options.newton = newton;
+  const auto response = harmonic::traceFrequencyResponse(problem, options, context);
+  Run result{response.report};
+  for (const auto& point : response.points) result.iterations += point.newtonIterations;
+  return result;
+}
+
+Json rowOf(const scene::Scene& scene, const std::string& sceneName, const Json& study) {
+  harmonic::HarmonicBalanceProblem problem(scene::buildModel(scene), {study["harmonics"], study["samples"]});
+  const auto begin = std::chrono::steady_clock::now();
+  const Run result = run(problem, study);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const harmonic::SolutionCost& cost = problem.cost();
+  Json row;
+  row["area"] = "harmonic";
+  row["name"] = "harmonic/" + sceneName + "/" + study["name"].get<std::string>();
+  row["seconds"] = seconds;
+  row["iterations"] = result.iterations;
+  row["unavoidable_seconds"] = cost.seconds();
+  row["thesis_seconds"] = nullptr;
+  row["size"] = problem.size();
+  row["termination"] = base::toString(result.report.termination);
+  std::printf("%-36s %7d %10.3f s %10.3f s %6d %5d %6d %6d  %s\n", row["name"].get<std::string>().c_str(),
+              static_cast<int>(problem.size()), seconds, cost.seconds(), result.iterations, cost.factorizations,
+              cost.evaluations, cost.solves, row["termination"].get<std::string>().c_str());
+  std::fflush(stdout);
+  return row;
+}
+
+Json measure() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes/harmonic"))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::printf(
+      "%-36s %7s %12s %12s %6s %5s %6s %6s\n", "name", "size", "time", "unavoidable", "iter.", "LU", "eval.", "solves");
+  Json rows = Json::array();
+  for (const auto& file : files) {
+    const scene::Scene scene = scene::Scene::load(file);
+    for (const Json& study : scene.normalized()["studies"]) rows.push_back(rowOf(scene, file.stem().string(), study));
+  }
+  return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool withFile = arguments.size() == 3 && arguments[1] == "--json";
+  if (arguments.empty() || arguments[0] != "harmonic" || !(arguments.size() == 1 || withFile)) {
+    std::fprintf(stderr, "usage: pliant-bench harmonic [--json FILE]\n");
+    return 2;
+  }
+  try {
+    const std::filesystem::path file = withFile ? arguments[2] : PLIANT_SOURCE_DIR "/build/bench/harmonic.json";
+    const Json rows = measure();
+    std::filesystem::create_directories(file.parent_path());
+    scene::writeTextFile(file, scene::formatJson(rows));
+    std::printf("written to %s\n", file.c_str());
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
