@@ -67,7 +67,8 @@ void MessageBar::applyStyle() {
   const bool dark = plots::isDark(palette());
   const QColor ground = warning ? (dark ? QColor(74, 56, 20) : QColor(255, 240, 209))
                                 : (dark ? QColor(24, 52, 68) : QColor(221, 238, 248));
-  setStyleSheet(QStringLiteral("#messageBar { background: %1; border: none; }").arg(ground.name()));
+  const QString sheet = QStringLiteral("#messageBar { background: %1; border: none; }").arg(ground.name());
+  if (sheet != styleSheet()) setStyleSheet(sheet);  // a new sheet changes the palette, which comes back here
 }
 
 }  // namespace pliant::panels
