@@ -13,7 +13,7 @@ ExitStatus list(const std::string& scene);
 struct RunOptions {
   std::string scene;
   std::string out;
-  std::vector<std::string> studies;  ///< empty: all
+  std::vector<std::string> studies;   ///< empty: all
   std::vector<std::string> settings;  ///< "/json/pointer=VALUE"
   int threads = 0;                    ///< 0: all cores
 };

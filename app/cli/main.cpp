@@ -10,7 +10,8 @@ namespace pliant::cli {
 namespace {
 
 int complain(std::string sentence, ExitStatus status) {
-  std::replace_if(sentence.begin(), sentence.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      sentence.begin(), sentence.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   std::cerr << sentence << std::endl;
   return status;
 }
@@ -39,7 +40,8 @@ int runProgram(int argc, char** argv) {
   verb = program.add_subcommand("run", "Compute studies and write their results");
   addScene(verb, runOptions.scene);
   verb->add_option("--out", runOptions.out, "Folder for the results, one folder a study")->required();
-  verb->add_option("--study", runOptions.studies, "Study to compute; may be repeated; else all")->allow_extra_args(false);
+  verb->add_option("--study", runOptions.studies, "Study to compute; may be repeated; else all")
+      ->allow_extra_args(false);
   verb->add_option("--set", runOptions.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--threads", runOptions.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));

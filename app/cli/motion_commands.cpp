@@ -71,8 +71,8 @@ Moment findMoment(const MotionOptions& options) {
   moment.problem = result->problem;
   moment.z = point.z;
   moment.tau = std::fmod(point.omega * time, 2 * std::numbers::pi);
-  moment.caption += (moment.caption.empty() ? "" : "\n") + study + ", ω = " +
-                    base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
+  moment.caption += (moment.caption.empty() ? "" : "\n") + study +
+                    ", ω = " + base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
                     ", H = " + std::to_string(result->problem->basis().harmonics()) + ", residual " +
                     base::formatQuantity(point.residual, {});
   if (result->termination != base::TerminationType::converged)
@@ -84,12 +84,13 @@ Moment findMoment(const MotionOptions& options) {
 
 ExitStatus exportMesh(const MotionOptions& options) {
   const Moment moment = findMoment(options);
-  const mechanics::Vector positions = 
+  const mechanics::Vector positions =
       moment.problem ? moment.problem->configurationAt(moment.z, moment.tau) : moment.model->restPositions;
   const geometry::SurfaceMesh mesh = scene::surfaceAt(*moment.model, positions);
   if (mesh.triangles.empty()) throw InputError(options.scene, "The scene has no triangles to export.");
   geometry::writeMesh(mesh, options.out);
-  std::cout << options.out << ": " << moment.model->nodeCount() << " nodes, " << mesh.triangles.size() << " triangles\n";
+  std::cout << options.out << ": " << moment.model->nodeCount() << " nodes, " << mesh.triangles.size()
+            << " triangles\n";
   return done;
 }
 

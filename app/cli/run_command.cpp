@@ -46,7 +46,8 @@ void printSummary(const Json& summary) {
             << summary["newton_iterations"] << " Newton iterations, residual "
             << base::formatQuantity(summary["residual"].get<double>(), {}) << ", "
             << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
-  if (const auto message = summary["message"].get<std::string>(); !message.empty()) std::cout << "  " << message << "\n";
+  if (const auto message = summary["message"].get<std::string>(); !message.empty())
+    std::cout << "  " << message << "\n";
   std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
             << " unknowns\n";
   if (summary.contains("probes")) {
@@ -112,8 +113,10 @@ ExitStatus run(const RunOptions& options) {
     printSummary(summary);
     if (options.settings.empty()) printExpected(scene::compareWithExpected(scene, names[i], summary));
     std::cout << "  written to " << folder.string() << std::endl;
-    if (result->termination == base::TerminationType::cancelled) status = cancelled;
-    else if (result->termination != base::TerminationType::converged && status == done) status = notConverged;
+    if (result->termination == base::TerminationType::cancelled)
+      status = cancelled;
+    else if (result->termination != base::TerminationType::converged && status == done)
+      status = notConverged;
   }
   return context.cancelRequested() ? cancelled : status;
 }

@@ -13,7 +13,7 @@ namespace pliant::base {
 using Json = nlohmann::ordered_json;
 
 enum class ValueKind {
-  number,   ///< a finite number, or a string with a unit
+  number,  ///< a finite number, or a string with a unit
   integer,
   boolean,
   text,
@@ -35,7 +35,7 @@ struct ParameterSpec {
   std::string description;  ///< one sentence
   ValueKind kind = ValueKind::number;
   Dimension dimension{};
-  Json defaultValue;  ///< null: the key is required (unless `optional`)
+  Json defaultValue;      ///< null: the key is required (unless `optional`)
   bool optional = false;  ///< may be absent without a default
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();

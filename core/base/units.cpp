@@ -56,9 +56,9 @@ struct Prefix {
   int decimals;
 };
 
-constexpr std::array prefixes{Prefix{"n", -9}, Prefix{"µ", -6}, Prefix{"μ", -6}, Prefix{"u", -6}, Prefix{"m", -3},
-                              Prefix{"c", -2}, Prefix{"d", -1}, Prefix{"k", 3},  Prefix{"M", 6},  Prefix{"G", 9},
-                              Prefix{"T", 12}};
+constexpr std::array prefixes{Prefix{"n", -9}, Prefix{"µ", -6}, Prefix{"μ", -6}, Prefix{"u", -6},
+                              Prefix{"m", -3}, Prefix{"c", -2}, Prefix{"d", -1}, Prefix{"k", 3},
+                              Prefix{"M", 6},  Prefix{"G", 9},  Prefix{"T", 12}};
 
 std::optional<Unit> findUnit(std::string_view symbol) {
   for (const NamedUnit& named : namedUnits)
@@ -121,7 +121,8 @@ int takeExponent(std::string_view& text, std::string_view whole) {
   return exponent;
 }
 
-/// unit := factor { ("*" | "·" | " " | "/") factor }, factor := symbol [exponent]; "/" divides by the next factor alone.
+/// unit := factor { ("*" | "·" | " " | "/") factor }, factor := symbol [exponent]; "/" divides by the next factor
+/// alone.
 Unit parseUnit(const std::string_view whole) {
   std::string_view text = whole;
   Unit result;
@@ -168,7 +169,8 @@ double shiftedNumber(std::string_view text, int decimals) {
   const std::string shifted = std::string(text.substr(0, e)) + "e" + std::to_string(exponent + decimals);
   double value = 0;
   const auto [end, error] = std::from_chars(shifted.data(), shifted.data() + shifted.size(), value);
-  if (error == std::errc::result_out_of_range) fail(quote(text) + " is too large or too small for a number in SI units.");
+  if (error == std::errc::result_out_of_range)
+    fail(quote(text) + " is too large or too small for a number in SI units.");
   return value;
 }
 
@@ -186,7 +188,8 @@ double parseQuantity(std::string_view text, const Dimension& expected) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const std::size_t digits = text.starts_with('-') ? 1 : 0;
   double number = 0;
-  const bool looksLikeNumber = digits < text.size() && (text[digits] == '.' || (text[digits] >= '0' && text[digits] <= '9'));
+  const bool looksLikeNumber =
+      digits < text.size() && (text[digits] == '.' || (text[digits] >= '0' && text[digits] <= '9'));
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (!looksLikeNumber || error == std::errc::invalid_argument)
     fail(quote(whole) + " is no finite number; expected " + unitOf(expected) + ".");
@@ -210,8 +213,10 @@ std::string siUnit(const Dimension& dimension) {
   const auto add = [&](std::string_view symbol, int exponent) {
     if (exponent == 0) return;
     std::string& side = exponent > 0 ? numerator : denominator;
-    if (exponent < 0) side += "/";
-    else if (!side.empty()) side += " ";
+    if (exponent < 0)
+      side += "/";
+    else if (!side.empty())
+      side += " ";
     side += symbol;
     if (std::abs(exponent) != 1) side.append("^").append(std::to_string(std::abs(exponent)));
   };

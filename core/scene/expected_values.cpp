@@ -12,8 +12,9 @@ std::vector<ExpectedValue> compareWithExpected(const Scene& scene, const std::st
   for (const Json& entry : scene.normalized()["expected"]) {
     if (entry["study"] != study) continue;
     ExpectedValue value{entry["pointer"], entry["value"]};
-    value.tolerance = entry.contains("tolerance") ? entry["tolerance"].get<double>()
-                                                  : entry["relative_tolerance"].get<double>() * std::abs(value.expected);
+    value.tolerance = entry.contains("tolerance")
+                          ? entry["tolerance"].get<double>()
+                          : entry["relative_tolerance"].get<double>() * std::abs(value.expected);
     const Json::json_pointer pointer(value.pointer);
     const bool isNumber = summary.contains(pointer) && summary[pointer].is_number();
     value.found = isNumber ? summary[pointer].get<double>() : std::numeric_limits<double>::quiet_NaN();

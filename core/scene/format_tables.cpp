@@ -14,7 +14,9 @@ namespace {
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
 bool isSelection(const ParameterSpec& spec) { return spec.exactlyOne.size() == 4; }
-bool isSignal(const ParameterSpec& spec) { return spec.kind == ValueKind::list && spec.items.front().key == "harmonic"; }
+bool isSignal(const ParameterSpec& spec) {
+  return spec.kind == ValueKind::list && spec.items.front().key == "harmonic";
+}
 
 std::string kindOf(const ParameterSpec& spec) {
   switch (spec.kind) {
@@ -34,7 +36,8 @@ std::string kindOf(const ParameterSpec& spec) {
     }
     case ValueKind::path: return "path";
     case ValueKind::list: {
-      if (isSignal(spec)) return "[harmonics](#harmonics) [" + base::siUnit(spec.items.front().fields[1].dimension) + "]";
+      if (isSignal(spec))
+        return "[harmonics](#harmonics) [" + base::siUnit(spec.items.front().fields[1].dimension) + "]";
       const ParameterSpec& item = spec.items.front();
       const std::string unit = base::siUnit(item.dimension);
       if (spec.spatial) return unit.empty() ? "vector" : "vector [" + unit + "]";
@@ -51,7 +54,8 @@ std::string kindOf(const ParameterSpec& spec) {
 std::string rangeOf(const ParameterSpec& spec) {
   if (spec.kind != ValueKind::number && spec.kind != ValueKind::integer) return "";
   const auto show = [&](double bound) {
-    return spec.kind == ValueKind::integer ? std::to_string(static_cast<long>(bound)) : base::formatQuantityExactly(bound, {});
+    return spec.kind == ValueKind::integer ? std::to_string(static_cast<long>(bound))
+                                           : base::formatQuantityExactly(bound, {});
   };
   if (std::isinf(spec.minimum)) return "";
   if (std::isinf(spec.maximum)) return (spec.exclusiveMinimum ? ", above " : ", at least ") + show(spec.minimum);
@@ -125,14 +129,16 @@ std::string formatTables() {
       addTable(field, out);
     }
   }
-  addHeading("Selections", "Exactly one of `nodes`, `group`, `nearest` and `box` says which nodes; none is an error.", out);
+  addHeading(
+      "Selections", "Exactly one of `nodes`, `group`, `nearest` and `box` says which nodes; none is an error.", out);
   const ParameterSpec* selection = find(scene, isSelection);
   addTable(*selection, out);
   addInner(*selection, out);
-  addHeading("Harmonics",
-             "A list of terms; their sum Σ amplitude cos(order τ + phase), τ = ω t, is the value over time. The amplitude "
-             "has the unit that the table above names.",
-             out);
+  addHeading(
+      "Harmonics",
+      "A list of terms; their sum Σ amplitude cos(order τ + phase), τ = ω t, is the value over time. The amplitude "
+      "has the unit that the table above names.",
+      out);
   addTable(find(scene, isSignal)->items.front(), out);
   return out;
 }

@@ -112,8 +112,10 @@ Json HarmonicResult::summary() const {
             {"type", isCurve ? "frequency_response" : "periodic_motion"},
             {"termination", base::toString(termination)},
             {"message", message}};
-  if (isCurve) addCurve(*this, json);
-  else addMotion(*this, json);
+  if (isCurve)
+    addCurve(*this, json);
+  else
+    addMotion(*this, json);
   json["harmonics"] = problem->basis().harmonics();
   json["samples"] = problem->basis().samples();
   json["unknowns"] = problem->size();
@@ -126,11 +128,15 @@ Json HarmonicResult::summary() const {
                           {"value", parameter->value(model)},
                           {"unit", base::siUnit(parameter->dimension())}});
   json["parameters"] = parameters;
-  json["units"] = {{"frequency", "rad/s"}, {"frequency_hz", "Hz"},           {"path_length", "m"},
-                   {"maximum_displacement", "m"}, {"path_length_derivative", "m per unit of the parameter"},
-                   {"residual", "relative to the driving force"}, {"seconds", "s"}};
+  json["units"] = {{"frequency", "rad/s"},
+                   {"frequency_hz", "Hz"},
+                   {"path_length", "m"},
+                   {"maximum_displacement", "m"},
+                   {"path_length_derivative", "m per unit of the parameter"},
+                   {"residual", "relative to the driving force"},
+                   {"seconds", "s"}};
   json["seconds"] = seconds;
-  json["provenance"] = {{"version", provenance.version},     {"scene", provenance.sceneName},
+  json["provenance"] = {{"version", provenance.version},      {"scene", provenance.sceneName},
                         {"scene_hash", provenance.sceneHash}, {"date", now()},
                         {"threads", math::threadCount()},     {"options", provenance.options}};
   return json;

@@ -19,7 +19,7 @@ Json numberSchema(const ParameterSpec& spec) {
   if (spec.dimension == base::Dimension{}) return number;
   const std::string sign = spec.minimum >= 0 ? "[+]?" : "[+-]?";
   const Json text{{"type", "string"},
-                  {"pattern", "^ *" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?( *[^ 0-9+-].*)?$"}};
+                  {"pattern", "^ *" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?(( *[^ .0-9+-]| +1/).*)?$"}};
   return Json{{"anyOf", Json::array({number, text})}};
 }
 
@@ -59,14 +59,19 @@ Json schemaOf(const ParameterSpec& spec) {
   switch (spec.kind) {
     case ValueKind::number: result = numberSchema(spec); break;
     case ValueKind::integer:
-      result = {{"type", "integer"}, {"minimum", static_cast<long>(spec.minimum)}, {"maximum", static_cast<long>(spec.maximum)}};
+      result = {{"type", "integer"},
+                {"minimum", static_cast<long>(spec.minimum)},
+                {"maximum", static_cast<long>(spec.maximum)}};
       break;
     case ValueKind::boolean: result = {{"type", "boolean"}}; break;
     case ValueKind::text:
     case ValueKind::path:
     case ValueKind::reference: result = {{"type", "string"}}; break;
     case ValueKind::name:
-      result = {{"type", "string"}, {"minLength", 1}, {"maxLength", 80}, {"pattern", "^[^ .!-,/:-@\\[-^`{-~]([^!-,/:-@\\[-^`{-~]*[^ !-,/:-@\\[-^`{-~])?$"}};
+      result = {{"type", "string"},
+                {"minLength", 1},
+                {"maxLength", 80},
+                {"pattern", "^[^ .!-,/:-@\\[-^`{-~]([^!-,/:-@\\[-^`{-~]*[^ !-,/:-@\\[-^`{-~])?$"}};
       break;
     case ValueKind::choice: result = {{"enum", spec.choices}}; break;
     case ValueKind::list: result = listSchema(spec); break;

@@ -69,8 +69,10 @@ class Position {
   void advance() {
     if (levels_.empty()) return;
     Level& level = levels_.back();
-    if (level.isList) ++level.index;
-    else level.key.clear();
+    if (level.isList)
+      ++level.index;
+    else
+      level.key.clear();
   }
 
   std::vector<Level> levels_;
@@ -135,7 +137,8 @@ Json parseJson(std::string_view text) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError("", "The scene is empty.");
   Position position;
   try {
-    return Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) { return position.handle(event, parsed); });
+    return Json::parse(
+        text, [&](int, Json::parse_event_t event, Json& parsed) { return position.handle(event, parsed); });
   } catch (const Json::parse_error& error) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing ... - REASON; last
     // read: ..."
@@ -144,9 +147,11 @@ Json parseJson(std::string_view text) {
     reason = dash == std::string::npos ? "unreadable text" : reason.substr(dash + 3);
     reason = reason.substr(0, reason.find("; last read"));
     if (const std::size_t colon = reason.find("; expected"); colon != std::string::npos) reason.resize(colon);
-    std::replace_if(reason.begin(), reason.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
-    throw InputError(position.pointer(), "This is no JSON at " + lineAndColumn(text, error.byte == 0 ? 0 : error.byte - 1) +
-                                             ": " + reason.substr(0, 120) + ".");
+    std::replace_if(
+        reason.begin(), reason.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+    throw InputError(position.pointer(), "This is no JSON at " +
+                                             lineAndColumn(text, error.byte == 0 ? 0 : error.byte - 1) + ": " +
+                                             reason.substr(0, 120) + ".");
   } catch (const Json::out_of_range&) {
     throw InputError(position.pointer(), "The number is too large: numbers must be finite.");
   }
@@ -175,9 +180,12 @@ std::string describe(const Json& value) {
 std::string childPointer(const std::string& parent, std::string_view token) {
   std::string result = parent + "/";
   for (const char c : token) {
-    if (c == '~') result += "~0";
-    else if (c == '/') result += "~1";
-    else result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    if (c == '~')
+      result += "~0";
+    else if (c == '/')
+      result += "~1";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
   }
   return result;
 }

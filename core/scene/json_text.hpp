@@ -10,9 +10,9 @@ namespace pliant::scene {
 
 using base::Json;
 
-/// Reads one JSON value. Throws base::InputError with the pointer of the place that was being read as location, and line
-/// and column in the sentence: syntax errors, numbers out of range, keys that stand twice in one object, more than 64
-/// levels.
+/// Reads one JSON value. Throws base::InputError with the pointer of the place that was being read as location, and
+/// line and column in the sentence: syntax errors, numbers out of range, keys that stand twice in one object, more than
+/// 64 levels.
 Json parseJson(std::string_view text);
 
 /// Short objects and lists on one line, the rest indented by two spaces; ends with a newline.

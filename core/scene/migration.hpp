@@ -15,8 +15,8 @@ struct MigrationStep {
   std::function<void(Json&)> apply;
 };
 
-/// The scene in version `newest`, step by step. Throws base::InputError if "schema_version" is missing, no whole number,
-/// newer than `newest`, or older than the steps reach.
+/// The scene in version `newest`, step by step. Throws base::InputError if "schema_version" is missing, no whole
+/// number, newer than `newest`, or older than the steps reach.
 Json migrate(Json scene, std::span<const MigrationStep> steps, int newest);
 
 /// The steps from older versions of the format to `schemaVersion`.

@@ -81,27 +81,27 @@ class Builder {
     for (const PlacedGeometry& geometry : geometries_) {
       model_.restPositions.segment(geometry.firstNode * dimension_, geometry.nodeCount() * dimension_) =
           geometry.mesh.points.topRows(dimension_).reshaped();
-      model_.parts.push_back(
-          {geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.globalTriangles(), {}});
+      model_.parts.push_back({geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.globalTriangles(), {}});
     }
     model_.lockedCoordinates.assign(static_cast<std::size_t>(model_.restPositions.size()), 0);
   }
 
   void addElements() {
     std::vector<Eigen::Triplet<double>> mass;
-    const auto kind = scene_["mass_matrix"] == "lumped" ? mechanics::MassMatrix::lumped : mechanics::MassMatrix::consistent;
+    const auto kind =
+        scene_["mass_matrix"] == "lumped" ? mechanics::MassMatrix::lumped : mechanics::MassMatrix::consistent;
     forEach("elements", [&](const Json& entry, const std::string& pointer) {
       const auto named = [&](const auto& list, const char* key) {
         return std::find_if(list.begin(), list.end(), [&](const Json& e) { return e["name"] == entry[key]; });
       };
       const Json& material = *named(scene_["materials"], "material");
-      const auto geometry = std::find_if(geometries_.begin(), geometries_.end(),
-                                         [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
+      const auto geometry = std::find_if(
+          geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
       const mechanics::Triangles triangles = geometry->globalTriangles();
       if (triangles.empty())
         throw InputError(pointer + "/geometry", "The geometry " + quote(geometry->name) + " has no triangles.");
-      const mechanics::ShellMaterial shell{material["young_modulus"], material["poisson_ratio"], material["density"],
-                                           entry["thickness"]};
+      const mechanics::ShellMaterial shell{
+          material["young_modulus"], material["poisson_ratio"], material["density"], entry["thickness"]};
       const std::string type = entry["type"];
       if (type != "bending") {
         model_.energies.push_back(mechanics::makeMembrane(dimension_, model_.restPositions, triangles, shell));
@@ -175,8 +175,8 @@ class Builder {
           std::move(nodes), toVector(entry["direction"]).stableNormalized(), toSignal(entry["harmonics"])));
     } else {
       const Eigen::Vector3d axis = toVector(entry["axis"]);
-      model_.drives.push_back(mechanics::makeRotation(std::move(nodes), toVector(entry["center"]), axis.stableNormalized(),
-                                                      toSignal(entry["harmonics"])));
+      model_.drives.push_back(mechanics::makeRotation(
+          std::move(nodes), toVector(entry["center"]), axis.stableNormalized(), toSignal(entry["harmonics"])));
     }
   }
 
@@ -206,7 +206,8 @@ class Builder {
       if (!held[static_cast<std::size_t>(coordinate)] && !(mass.coeff(coordinate, coordinate) > 0)) {
         const int node = coordinate / dimension_;
         const auto index = static_cast<std::size_t>(&geometryOf(node) - geometries_.data());
-        throw InputError(childPointer("/geometry", index), nodeText(node) + " can move but has neither mass nor element nor spring.");
+        throw InputError(childPointer("/geometry", index),
+                         nodeText(node) + " can move but has neither mass nor element nor spring.");
       }
   }
 

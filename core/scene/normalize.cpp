@@ -117,13 +117,12 @@ class Normalizer {
     if (!found.is_string()) expected(pointer, "a name in double quotes", found);
     const auto& text = found.get_ref<const std::string&>();
     const auto allowed = [](unsigned char c) { return std::isalnum(c) || c >= 0x80 || c == '-' || c == '_'; };
-    const bool good = !text.empty() && text.size() <= 80 && allowed(static_cast<unsigned char>(text.front())) &&
-                      text.back() != ' ' && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
-                        return allowed(c) || c == ' ' || c == '.';
-                      });
+    const bool good =
+        !text.empty() && text.size() <= 80 && allowed(static_cast<unsigned char>(text.front())) && text.back() != ' ' &&
+        std::all_of(text.begin(), text.end(), [&](unsigned char c) { return allowed(c) || c == ' ' || c == '.'; });
     if (!good)
-      expected(pointer,
-               "a name of at most 80 letters, digits, \"-\", \"_\", and after the first also \".\" and spaces", found);
+      expected(pointer, "a name of at most 80 letters, digits, \"-\", \"_\", and after the first also \".\" and spaces",
+               found);
     return found;
   }
 
@@ -139,8 +138,9 @@ class Normalizer {
     if (!found.is_array()) expected(pointer, "a list", found);
     const auto count = static_cast<int>(std::min<std::size_t>(found.size(), std::numeric_limits<int>::max()));
     if (spec.spatial && count != dimension_)
-      throw InputError(pointer, "Expected a list of " + std::to_string(dimension_) + " because the scene's dimension is " +
-                                    std::to_string(dimension_) + ", found " + std::to_string(count) + ".");
+      throw InputError(pointer, "Expected a list of " + std::to_string(dimension_) +
+                                    " because the scene's dimension is " + std::to_string(dimension_) + ", found " +
+                                    std::to_string(count) + ".");
     if (count < spec.minimumCount || count > spec.maximumCount) {
       const bool exactly = spec.minimumCount == spec.maximumCount;
       throw InputError(pointer, "Expected a list of " + std::to_string(spec.minimumCount) +
@@ -155,8 +155,8 @@ class Normalizer {
       if (!result[i].is_object() || !result[i].contains("name")) continue;
       const auto& given = result[i]["name"].get_ref<const std::string&>();
       if (!names.insert(given).second)
-        throw InputError(childPointer(childPointer(pointer, i), "name"),
-                         "The name " + quote(given) + " stands twice in this list.");
+        throw InputError(
+            childPointer(childPointer(pointer, i), "name"), "The name " + quote(given) + " stands twice in this list.");
     }
     return result;
   }
@@ -168,21 +168,26 @@ class Normalizer {
     for (const ParameterSpec& field : spec.fields) known.push_back(field.key);
     for (const auto& [key, item] : found.items())
       if (std::find(known.begin(), known.end(), key) == known.end())
-        throw InputError(childPointer(pointer, key), "The key " + quote(key) + " is not known here" + suggestion(key, known));
-    const auto present = std::count_if(spec.exactlyOne.begin(), spec.exactlyOne.end(),
-                                       [&](const std::string& key) { return found.contains(key); });
+        throw InputError(
+            childPointer(pointer, key), "The key " + quote(key) + " is not known here" + suggestion(key, known));
+    const auto present = std::count_if(
+        spec.exactlyOne.begin(), spec.exactlyOne.end(), [&](const std::string& key) { return found.contains(key); });
     if (!spec.exactlyOne.empty() && present != 1) {
       std::string keys;
       for (const std::string& key : spec.exactlyOne) keys += (keys.empty() ? "" : ", ") + quote(key);
-      throw InputError(pointer, "Expected exactly one of the keys " + keys + ", found " + std::to_string(present) + ".");
+      throw InputError(
+          pointer, "Expected exactly one of the keys " + keys + ", found " + std::to_string(present) + ".");
     }
     Json result = Json::object();
     if (hasType) result["type"] = spec.key;
     for (const ParameterSpec& field : spec.fields) {
       const std::string place = childPointer(pointer, field.key);
-      if (found.contains(field.key)) result[field.key] = value(field, found[field.key], place);
-      else if (field.required()) throw InputError(place, "This key is missing; it gives: " + field.description);
-      else if (!field.defaultValue.is_null()) result[field.key] = value(field, defaultOf(field), place);
+      if (found.contains(field.key))
+        result[field.key] = value(field, found[field.key], place);
+      else if (field.required())
+        throw InputError(place, "This key is missing; it gives: " + field.description);
+      else if (!field.defaultValue.is_null())
+        result[field.key] = value(field, defaultOf(field), place);
     }
     return result;
   }
@@ -248,8 +253,8 @@ void resolveReferences(const Json& scene, const ParameterSpec& spec, Json& value
       const std::vector<std::string> names = namesIn(scene, spec.target);
       const auto& name = value.get_ref<const std::string&>();
       if (std::find(names.begin(), names.end(), name) == names.end())
-        throw InputError(pointer,
-                         "There is no entry named " + quote(name) + " in \"" + spec.target + "\"" + suggestion(name, names));
+        throw InputError(pointer, "There is no entry named " + quote(name) + " in \"" + spec.target + "\"" +
+                                      suggestion(name, names));
       return;
     }
     default: return;

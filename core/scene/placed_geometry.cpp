@@ -135,8 +135,8 @@ std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
 
 std::vector<int> selectNodes(const Json& selection, const std::string& pointer,
                              const std::vector<PlacedGeometry>& geometries) {
-  const auto found = std::find_if(geometries.begin(), geometries.end(),
-                                  [&](const PlacedGeometry& g) { return g.name == selection["geometry"]; });
+  const auto found = std::find_if(
+      geometries.begin(), geometries.end(), [&](const PlacedGeometry& g) { return g.name == selection["geometry"]; });
   const PlacedGeometry& geometry = *found;
   std::set<int> nodes;
   if (selection.contains("nodes")) {

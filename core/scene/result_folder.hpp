@@ -6,8 +6,8 @@
 
 namespace pliant::scene {
 
-/// A result's folder in the making: files are written beside it and take its place all at once by commit(). Whatever ends
-/// before leaves what was there untouched.
+/// A result's folder in the making: files are written beside it and take its place all at once by commit(). Whatever
+/// ends before leaves what was there untouched.
 class ResultFolder {
  public:
   /// Throws base::InputError with the folder as location if it cannot be written, or if `directory` exists and is

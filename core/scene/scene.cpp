@@ -30,9 +30,8 @@ std::vector<std::string> tokensOf(const std::string& pointer) {
 
 /// The index that `token` gives in a list of `count` entries, or -1.
 long indexOf(const std::string& token, std::size_t count) {
-  const bool digits = !token.empty() && token.size() < 10 && std::all_of(token.begin(), token.end(), [](unsigned char c) {
-    return c >= '0' && c <= '9';
-  });
+  const bool digits = !token.empty() && token.size() < 10 &&
+                      std::all_of(token.begin(), token.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
   const long index = digits ? std::stol(token) : -1;
   return index < static_cast<long>(count) ? index : -1;
 }
@@ -64,9 +63,12 @@ Scene Scene::withValue(const std::string& pointer, const Json& value) const {
     Json* place = &edited;
     for (const std::string& token : tokens) {
       const long index = place->is_array() ? indexOf(token, place->size()) : -1;
-      if (index >= 0) place = &(*place)[static_cast<std::size_t>(index)];
-      else if (place->is_object() || place->is_null()) place = &(*place)[token];
-      else throw InputError(pointer, "The scene has no such value to change.");
+      if (index >= 0)
+        place = &(*place)[static_cast<std::size_t>(index)];
+      else if (place->is_object() || place->is_null())
+        place = &(*place)[token];
+      else
+        throw InputError(pointer, "The scene has no such value to change.");
     }
     *place = value;
     Scene scene = *this;
@@ -86,8 +88,8 @@ const ParameterSpec* specAt(const Scene& scene, const std::string& pointer) {
   for (const std::string& token : tokensOf(pointer)) {
     if (spec->kind == ValueKind::variant) {
       if (!value) return nullptr;
-      const auto item = std::find_if(spec->items.begin(), spec->items.end(),
-                                     [&](const ParameterSpec& s) { return s.key == (*value)["type"]; });
+      const auto item = std::find_if(
+          spec->items.begin(), spec->items.end(), [&](const ParameterSpec& s) { return s.key == (*value)["type"]; });
       spec = &*item;
     }
     if (spec->kind == ValueKind::list) {
@@ -96,8 +98,8 @@ const ParameterSpec* specAt(const Scene& scene, const std::string& pointer) {
       spec = &spec->items[std::min<std::size_t>(static_cast<std::size_t>(index), spec->items.size() - 1)];
       value = &(*value)[static_cast<std::size_t>(index)];
     } else if (spec->kind == ValueKind::object) {
-      const auto field = std::find_if(spec->fields.begin(), spec->fields.end(),
-                                      [&](const ParameterSpec& s) { return s.key == token; });
+      const auto field = std::find_if(
+          spec->fields.begin(), spec->fields.end(), [&](const ParameterSpec& s) { return s.key == token; });
       if (field == spec->fields.end()) return nullptr;
       spec = &*field;
       value = value && value->contains(token) ? &(*value)[token] : nullptr;

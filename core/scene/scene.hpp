@@ -14,8 +14,8 @@ using base::Json;
 /// The newest `schema_version`.
 inline constexpr int schemaVersion = 1;
 
-/// A scene file in memory: as the person wrote it (units and key order kept), migrated to the newest version, and valid.
-/// A value: an edit makes a new scene.
+/// A scene file in memory: as the person wrote it (units and key order kept), migrated to the newest version, and
+/// valid. A value: an edit makes a new scene.
 class Scene {
  public:
   /// Reads, migrates and validates. Throws base::InputError with `FILE: POINTER` as location.

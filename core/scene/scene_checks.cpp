@@ -28,8 +28,9 @@ void checkMasses(Json& scene) {
       throw InputError(at("point_masses", i) + "/maximum",
                        "The largest mass, " + show(maximum) + ", is not above the smallest, " + show(minimum) + ".");
     if (mass < minimum || mass > maximum)
-      throw InputError(at("point_masses", i) + "/mass", "The mass, " + show(mass) + ", does not lie between its bounds, " +
-                                                            show(minimum) + " and " + show(maximum) + ".");
+      throw InputError(at("point_masses", i) + "/mass", "The mass, " + show(mass) +
+                                                            ", does not lie between its bounds, " + show(minimum) +
+                                                            " and " + show(maximum) + ".");
   }
 }
 
@@ -65,8 +66,8 @@ void checkDimension(const Json& scene) {
     if (!entry.contains("coordinates")) continue;
     for (std::size_t c = 0; c < entry["coordinates"].size(); ++c)
       if (entry["coordinates"][c].get_ref<const std::string&>()[0] - 'x' >= dimension)
-        throw InputError(childPointer(at("boundary_conditions", i) + "/coordinates", c),
-                         "There is no such coordinate" + because);
+        throw InputError(
+            childPointer(at("boundary_conditions", i) + "/coordinates", c), "There is no such coordinate" + because);
   }
 }
 

@@ -15,12 +15,12 @@ constexpr int largestMesh = 1'000'000;
 ParameterSpec geometry(std::string type, std::string description, std::vector<ParameterSpec> keys) {
   keys.insert(keys.begin(), name());
   keys.push_back(withDefault(vector("position", "Where the geometry's origin is put.", dimensions::length), {0, 0, 0}));
-  keys.push_back(optional(object(
-      "rotation", "Turns the geometry about its origin before it is put in place.",
-      {withDefault(list("axis", "Axis of rotation; only its direction counts.",
-                        number("", "", "A component.", dimensions::none), 3, 3),
-                   {0, 0, 1}),
-       number("angle", "", "Angle, counter-clockwise seen against the axis.", dimensions::angle)})));
+  keys.push_back(
+      optional(object("rotation", "Turns the geometry about its origin before it is put in place.",
+                      {withDefault(list("axis", "Axis of rotation; only its direction counts.",
+                                        number("", "", "A component.", dimensions::none), 3, 3),
+                                   {0, 0, 1}),
+                       number("angle", "", "Angle, counter-clockwise seen against the axis.", dimensions::angle)})));
   return object(std::move(type), std::move(description), std::move(keys));
 }
 
@@ -66,29 +66,26 @@ ParameterSpec geometries() {
          ParameterSpec path = text("path", "The file, relative to the scene.");
          path.kind = base::ValueKind::path;
          return std::vector<ParameterSpec>{
-             path,
-             withDefault(positive(number("scale", "", "Metres per unit of the file.", dimensions::none)), 1),
-             withDefault(notNegative(number("weld_tolerance", "", "Points closer than this become one node.",
-                                            dimensions::length)),
+             path, withDefault(positive(number("scale", "", "Metres per unit of the file.", dimensions::none)), 1),
+             withDefault(notNegative(number(
+                             "weld_tolerance", "", "Points closer than this become one node.", dimensions::length)),
                          "1 um")};
        }())});
 }
 
 ParameterSpec materials() {
-  return variant(
-      "material", "What elements are made of.",
-      {object("isotropic", "St. Venant-Kirchhoff, the same in every direction.",
-              {name(), positive(number("density", "ρ", "Mass per volume.", dimensions::density)),
-               positive(number("young_modulus", "E", "Young's modulus.", dimensions::pressure)),
-               within(number("poisson_ratio", "ν", "Poisson's ratio.", dimensions::none), -0.99, 0.5)})});
+  return variant("material", "What elements are made of.",
+                 {object("isotropic", "St. Venant-Kirchhoff, the same in every direction.",
+                         {name(), positive(number("density", "ρ", "Mass per volume.", dimensions::density)),
+                          positive(number("young_modulus", "E", "Young's modulus.", dimensions::pressure)),
+                          within(number("poisson_ratio", "ν", "Poisson's ratio.", dimensions::none), -0.99, 0.5)})});
 }
 
 ParameterSpec elements() {
   const auto element = [](std::string type, std::string description) {
     return object(
         std::move(type), std::move(description),
-        {name(),
-         optional(reference("geometry", "Whose triangles; may be left out where there is one.", "geometry")),
+        {name(), optional(reference("geometry", "Whose triangles; may be left out where there is one.", "geometry")),
          optional(reference("material", "May be left out where there is one.", "materials")),
          positive(number("thickness", "h", "Thickness.", dimensions::length))});
   };
@@ -101,24 +98,24 @@ ParameterSpec elements() {
 
 ParameterSpec coefficients() {
   constexpr int highestPower = 9;
-  ParameterSpec spec = list("coefficients",
-                            "Force = Σ coefficients[i] e^(i+1) of the elongation e: N/m, N/m^2, N/m^3, ...",
-                            number("", "", "Coefficient of e.", dimensions::stiffness), 1, highestPower);
+  ParameterSpec spec =
+      list("coefficients", "Force = Σ coefficients[i] e^(i+1) of the elongation e: N/m, N/m^2, N/m^3, ...",
+           number("", "", "Coefficient of e.", dimensions::stiffness), 1, highestPower);
   for (int i = 1; i < highestPower; ++i)
     spec.items.push_back(number("", "", "Coefficient of e^" + std::to_string(i + 1) + ".", {1, -i, -2, 0}));
   return spec;
 }
 
 ParameterSpec springs() {
-  const auto restLength = optional(notNegative(
-      number("rest_length", "l", "Length without force; the distance in the rest shape if left out.", dimensions::length)));
+  const auto restLength = optional(notNegative(number(
+      "rest_length", "l", "Length without force; the distance in the rest shape if left out.", dimensions::length)));
   return variant(
       "spring", "A force along a line, a polynomial of the elongation.",
       {object("between", "Between two nodes; elongation = distance - rest_length.",
               {name(), selection("from", "One node."), selection("to", "Another node."), restLength, coefficients()}),
        object("anchored", "Between a node and a fixed place; elongation = distance - rest_length.",
-              {name(), selection("at", "One node."), vector("anchor", "The fixed place.", dimensions::length), restLength,
-               coefficients()}),
+              {name(), selection("at", "One node."), vector("anchor", "The fixed place.", dimensions::length),
+               restLength, coefficients()}),
        object("grounded", "Pulls a node back along a direction; elongation = displacement along it.",
               {name(), selection("at", "Nodes; each gets its own spring."),
                vector("direction", "Only the direction counts.", dimensions::none), coefficients()})});
@@ -129,8 +126,8 @@ ParameterSpec pointMasses() {
                 {name(), selection("at", "Nodes; each gets the mass."),
                  notNegative(number("mass", "m", "Mass.", dimensions::mass)),
                  withDefault(notNegative(number("minimum", "", "Smallest mass in design.", dimensions::mass)), 0),
-                 optional(notNegative(number("maximum", "", "Largest mass in design; 5 times the mass if left out.",
-                                             dimensions::mass)))});
+                 optional(notNegative(number(
+                     "maximum", "", "Largest mass in design; 5 times the mass if left out.", dimensions::mass)))});
 }
 
 ParameterSpec boundaryConditions() {
@@ -157,25 +154,24 @@ ParameterSpec drives() {
 }
 
 ParameterSpec loads() {
-  return variant(
-      "load", "External forces.",
-      {object("gravity", "Acts on all mass.",
-              {name(), vector("acceleration", "Such as [0, 0, -9.81].", dimensions::acceleration)}),
-       object("harmonic_force", "A periodic force on each of some nodes.",
-              {name(), selection("at", "Nodes; each gets the force."),
-               vector("direction", "Only the direction counts.", dimensions::none),
-               signal("Force over time.", dimensions::force)})});
+  return variant("load", "External forces.",
+                 {object("gravity", "Acts on all mass.",
+                         {name(), vector("acceleration", "Such as [0, 0, -9.81].", dimensions::acceleration)}),
+                  object("harmonic_force", "A periodic force on each of some nodes.",
+                         {name(), selection("at", "Nodes; each gets the force."),
+                          vector("direction", "Only the direction counts.", dimensions::none),
+                          signal("Force over time.", dimensions::force)})});
 }
 
 ParameterSpec expectedValues() {
-  ParameterSpec spec = object(
-      "expected_value", "What a study must give; running a scene checks it.",
-      {reference("study", "Name of the study.", "studies"),
-       text("pointer", "JSON pointer into the study's summary.json."),
-       number("value", "", "Expected number, in SI.", dimensions::none),
-       optional(notNegative(number("tolerance", "", "Largest difference, in SI.", dimensions::none))),
-       optional(notNegative(number("relative_tolerance", "", "Largest difference as a fraction of the value.",
-                                   dimensions::none)))});
+  ParameterSpec spec =
+      object("expected_value", "What a study must give; running a scene checks it.",
+             {reference("study", "Name of the study.", "studies"),
+              text("pointer", "JSON pointer into the study's summary.json."),
+              number("value", "", "Expected number, in SI.", dimensions::none),
+              optional(notNegative(number("tolerance", "", "Largest difference, in SI.", dimensions::none))),
+              optional(notNegative(number(
+                  "relative_tolerance", "", "Largest difference as a fraction of the value.", dimensions::none)))});
   spec.exactlyOne = {"tolerance", "relative_tolerance"};
   return spec;
 }
@@ -190,8 +186,8 @@ ParameterSpec makeSceneSpec() {
       {integer("schema_version", "", "Version of this format: 1.", schemaVersion, schemaVersion),
        withDefault(text("title", "A few words, shown in the window."), ""),
        withDefault(text("description", "A sentence or more about the scene."), ""),
-       withDefault(integer("dimension", "d", "Number of coordinates of a node; every vector has as many entries.", 1, 3),
-                   3),
+       withDefault(
+           integer("dimension", "d", "Number of coordinates of a node; every vector has as many entries.", 1, 3), 3),
        withDefault(choice("mass_matrix", "How the mass of elements acts: on the nodes alone, or coupling neighbours.",
                           {"lumped", "consistent"}),
                    "lumped"),
@@ -201,17 +197,15 @@ ParameterSpec makeSceneSpec() {
        entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
        entries("springs", "Springs.", springs()),
        entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
-       entries("drives", "Nodes that are moved.", drives()),
-       entries("loads", "Forces.", loads()),
-       withDefault(
-           object("damping", "Rayleigh damping D = D_α M + D_β K(x).",
-                  {withDefault(notNegative(number("mass_proportional", "D_α", "Factor of the mass matrix.",
-                                                  dimensions::rate)),
-                               0),
-                   withDefault(notNegative(number("stiffness_proportional", "D_β",
-                                                  "Factor of the tangent stiffness matrix.", dimensions::time)),
-                               0)}),
-           Json::object()),
+       entries("drives", "Nodes that are moved.", drives()), entries("loads", "Forces.", loads()),
+       withDefault(object("damping", "Rayleigh damping D = D_α M + D_β K(x).",
+                          {withDefault(notNegative(number(
+                                           "mass_proportional", "D_α", "Factor of the mass matrix.", dimensions::rate)),
+                                       0),
+                           withDefault(notNegative(number("stiffness_proportional", "D_β",
+                                                          "Factor of the tangent stiffness matrix.", dimensions::time)),
+                                       0)}),
+                   Json::object()),
        entries("probes", "Nodes whose motion is reported.",
                object("probe", "A node whose trajectory and amplitude are reported.",
                       {name(), selection("at", "One node.")})),

@@ -78,8 +78,8 @@ ParameterSpec selection(std::string key, std::string description) {
   ParameterSpec spec = object(
       std::move(key), std::move(description),
       {optional(reference("geometry", "Whose nodes; may be left out where the scene has one geometry.", "geometry")),
-       optional(list("nodes", "Indices of nodes, counted from 0.", integer("", "", "A node.", 0, 1'000'000'000), 1,
-                     1'000'000)),
+       optional(list(
+           "nodes", "Indices of nodes, counted from 0.", integer("", "", "A node.", 0, 1'000'000'000), 1, 1'000'000)),
        optional(text("group", "A named group of the geometry, such as \"base\".")),
        optional(vector("nearest", "The one node that rests nearest to this place.", dimensions::length)),
        optional(object("box", "All nodes that rest inside this box, its faces included.",

@@ -103,12 +103,13 @@ class Study {
   virtual std::string type() const = 0;
   /// Pure: same scene, options and version give the same result. A cancelled or failed study returns what it has;
   /// only bad input throws (base::InputError).
-  virtual std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe = {}) const = 0;
+  virtual std::shared_ptr<const Result> run(base::ExecutionContext& context,
+                                            const ResultObserver& observe = {}) const = 0;
 };
 
 /// Makes a study from its normalised JSON object, on a model already built.
-using StudyFactory = std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>,
-                                                          const Json& options)>;
+using StudyFactory =
+    std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>, const Json& options)>;
 
 /// Kinds of studies by "type": "periodic_motion", "frequency_response".
 class StudyRegistry {

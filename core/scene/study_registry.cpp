@@ -19,8 +19,7 @@ const std::vector<base::ParameterSpec>& StudyRegistry::specs() const { return st
 std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                            const std::string& studyName) const {
   for (const Json& options : scene.normalized()["studies"])
-    if (options["name"] == studyName)
-      return factories_.at(options["type"])(scene, std::move(model), options);
+    if (options["name"] == studyName) return factories_.at(options["type"])(scene, std::move(model), options);
   std::string known;
   for (const std::string& name : studyNames(scene)) known += (known.empty() ? "" : ", ") + quote(name);
   throw base::InputError(scene.name() + ": /studies", "There is no study " + quote(studyName) + "; the scene has " +

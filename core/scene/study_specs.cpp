@@ -25,10 +25,10 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
                       dimensions::none)),
       1e-8));
   keys.push_back(withDefault(integer("maximum_iterations", "", "Newton iterations for one solution.", 1, 10'000), 40));
-  keys.push_back(withDefault(
-      integer("maximum_ramp_steps", "", "Steps in which the drive may be raised where Newton's method fails from rest.", 1,
-              10'000),
-      64));
+  keys.push_back(
+      withDefault(integer("maximum_ramp_steps", "",
+                          "Steps in which the drive may be raised where Newton's method fails from rest.", 1, 10'000),
+                  64));
   keys.insert(keys.end(), last.begin(), last.end());
   return object(std::move(type), std::move(description), std::move(keys));
 }
@@ -41,14 +41,15 @@ ParameterSpec step(std::string key, std::string description) {
 
 const std::vector<ParameterSpec>& studySpecs() {
   static const std::vector<ParameterSpec> specs{
-      harmonicStudy(
-          "periodic_motion", "The periodic motion at one driving frequency, and how it depends on each design parameter.",
-          {frequency("frequency", "ω", "Driving frequency.")},
-          {optional(positive(number("harmonics_tolerance", "",
-                                    "Raise the harmonics until no probe's trajectory changes by more than this fraction "
-                                    "of its length.",
-                                    dimensions::none))),
-           withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)}),
+      harmonicStudy("periodic_motion",
+                    "The periodic motion at one driving frequency, and how it depends on each design parameter.",
+                    {frequency("frequency", "ω", "Driving frequency.")},
+                    {optional(positive(
+                         number("harmonics_tolerance", "",
+                                "Raise the harmonics until no probe's trajectory changes by more than this fraction "
+                                "of its length.",
+                                dimensions::none))),
+                     withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)}),
       harmonicStudy(
           "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
           {frequency("from", "ω_1", "Where the curve starts."),

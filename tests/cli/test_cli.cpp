@@ -52,11 +52,13 @@ class TestCli : public QObject {
     QTest::newRow("unknown study") << QStringList{"run", duffing_, "--out", file("x"), "--study", "nothing"};
     QTest::newRow("set without value") << QStringList{"run", duffing_, "--out", file("x"), "--set", "/title"};
     QTest::newRow("set unknown") << QStringList{"run", duffing_, "--out", file("x"), "--set", "/damping/mass=1"};
-    QTest::newRow("set wrong unit") << QStringList{"run", duffing_, "--out", file("x"), "--set", "/point_masses/0/mass=2 m"};
+    QTest::newRow("set wrong unit") << QStringList{
+        "run", duffing_, "--out", file("x"), "--set", "/point_masses/0/mass=2 m"};
     QTest::newRow("out is a file") << QStringList{"run", duffing_, "--out", duffing_};
     QTest::newRow("export format") << QStringList{"export", file("full.json"), "--out", file("mesh.docx")};
     QTest::newRow("export nothing") << QStringList{"export", duffing_, "--out", file("mesh.stl")};
-    QTest::newRow("no result") << QStringList{"export", file("full.json"), "--result", file("nowhere"), "--out", file("a.stl")};
+    QTest::newRow("no result") << QStringList{
+        "export", file("full.json"), "--result", file("nowhere"), "--out", file("a.stl")};
     QTest::newRow("time") << QStringList{"export", file("full.json"), "--time", "3 kg", "--out", file("a.stl")};
     QTest::newRow("size") << QStringList{"render", duffing_, "--out", file("a.png"), "--size", "big"};
   }
@@ -94,9 +96,9 @@ class TestCli : public QObject {
   }
 
   void runTakesSettingsAndStudies() {
-    const auto outcome = runCli({"run", duffing_, "--out", file("results"), "--study", "motion", "--threads", "1", "--set",
-                                 "/studies/0/frequency=2 Hz", "--set", "/point_masses/0/mass=1.5", "--set",
-                                 "/title=A heavier bob"});
+    const auto outcome =
+        runCli({"run", duffing_, "--out", file("results"), "--study", "motion", "--threads", "1", "--set",
+                "/studies/0/frequency=2 Hz", "--set", "/point_masses/0/mass=1.5", "--set", "/title=A heavier bob"});
     QVERIFY2(outcome.status == 0, qPrintable(outcome.errors));
     QCOMPARE(summary("motion")["frequency_hz"].get<double>(), 2.0);
     QCOMPARE(summary("motion")["parameters"][0]["value"].get<double>(), 1.5);
@@ -104,8 +106,8 @@ class TestCli : public QObject {
   }
 
   void anUnconvergedStudyIsWrittenAndSaysSo() {
-    const auto outcome = runCli({"run", duffing_, "--out", file("results"), "--study", "response", "--set",
-                                 "/studies/1/maximum_points=5"});
+    const auto outcome = runCli(
+        {"run", duffing_, "--out", file("results"), "--study", "response", "--set", "/studies/1/maximum_points=5"});
     QVERIFY2(outcome.status == 1, qPrintable(outcome.errors));
     QCOMPARE(summary("response")["termination"], scene::Json("iteration limit"));
     QVERIFY(!summary("response")["message"].get<std::string>().empty());
@@ -137,7 +139,7 @@ class TestCli : public QObject {
   void renderDrawsAPicture() {
 #ifdef PLIANT_HAS_RENDERER
     QCOMPARE(runCli({"run", file("full.json"), "--out", file("results"), "--study", "motion"}).status, 0);
-    for (const QStringList& more : {QStringList(), QStringList{"--result", file("results"), "--time", "0.1"}}) {
+    for (const QStringList& more : {QStringList(), QStringList { "--result", file("results"), "--time", "0.1" }}) {
       const auto outcome =
           runCli(QStringList{"render", file("full.json"), "--out", file("picture.png"), "--size", "320x240"} + more);
       QVERIFY2(outcome.status == 0, qPrintable(outcome.errors));

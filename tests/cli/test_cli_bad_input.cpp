@@ -40,7 +40,9 @@ class TestCliBadInput : public QObject {
     write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n");
     write("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
     write("book.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
-    write("garbage.stl", std::string("\x7f" "ELF\0\1\2\3", 8));
+    write("garbage.stl", std::string("\x7f"
+                                     "ELF\0\1\2\3",
+                                     8));
     write("cut.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nver");
     write("empty.ply", "");
     fs::create_directory(folder_.filePath("folder.stl").toStdString());
@@ -55,7 +57,11 @@ class TestCliBadInput : public QObject {
     const QByteArray full = QByteArray::fromStdString(test::fullScene);
     row("empty", "", "");
     row("cut in half", full.left(full.indexOf("\"wall\"")), "/springs/1/name");
-    row("binary", QByteArray("\x7f" "ELF\0\1\2\3\xff\xfe", 10), "");
+    row("binary",
+        QByteArray("\x7f"
+                   "ELF\0\1\2\3\xff\xfe",
+                   10),
+        "");
     row("no scene", "[1, 2, 3]", "");
     row("misspelt key", edited("\"thickness\"", "\"thicknes\""), "/elements/0/thicknes");
     row("negative mass", edited("\"2 g\"", "\"-2 g\""), "/point_masses/0/mass");
@@ -64,18 +70,20 @@ class TestCliBadInput : public QObject {
     row("1e999 g", edited("\"2 g\"", "\"1e999 g\""), "/point_masses/0/mass");
     row("wrong unit", edited("\"2 g\"", "\"2 mm\""), "/point_masses/0/mass");
     row("harmonics", edited("\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 10000000"), "/studies/0/harmonics");
-    row("harmonics for this model", edited("\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 200, \"samples\": 401")
-                                        .replace("\"length_cells\": 4", "\"length_cells\": 400"),
+    row("harmonics for this model",
+        edited("\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 200, \"samples\": 401")
+            .replace("\"length_cells\": 4", "\"length_cells\": 400"),
         "/studies/0/harmonics");
     row("unknown node", edited("\"nodes\": [3]", "\"nodes\": [99]"), "/springs/0/from/nodes/0");
     row("selection outside", edited("\"group\": \"end\"", "\"box\": {\"minimum\": [5, 5, 5], \"maximum\": [6, 6, 6]}"),
         "/point_masses/0/at/box");
-    row("mesh of no triangles", edited("\"points\", \"points\"", "\"mesh\", \"triangles\": [], \"points\""), "/geometry/1");
+    row("mesh of no triangles", edited("\"points\", \"points\"", "\"mesh\", \"triangles\": [], \"points\""),
+        "/geometry/1");
     row("degenerate triangle", edited("\"points\", \"points\"", "\"mesh\", \"triangles\": [[0, 1, 0]], \"points\""),
         "/geometry/1");
     row("missing file", withMesh("nowhere.stl"), "/geometry/1/path");
-    for (const char* name : {"points.obj", "empty.stl", "line.obj", "nan.obj", "book.obj", "garbage.stl", "cut.stl", "empty.ply",
-                             "folder.stl", "nowhere.docx", ""})
+    for (const char* name : {"points.obj", "empty.stl", "line.obj", "nan.obj", "book.obj", "garbage.stl", "cut.stl",
+                             "empty.ply", "folder.stl", "nowhere.docx", ""})
       QTest::addRow("mesh <%s>", name) << withMesh(name) << "/geometry/1/path";
   }
   void saysWhere() {
@@ -86,7 +94,8 @@ class TestCliBadInput : public QObject {
     for (const QStringList& arguments :
          {QStringList{"validate", file}, QStringList{"run", file, "--out", folder_.filePath("results")}}) {
       const auto outcome = test::runCli(arguments);
-      QVERIFY2(outcome.status == 2, qPrintable(QString::number(outcome.status) + ": " + outcome.output + outcome.errors));
+      QVERIFY2(
+          outcome.status == 2, qPrintable(QString::number(outcome.status) + ": " + outcome.output + outcome.errors));
       QVERIFY2(outcome.errors.count('\n') == 1, qPrintable(outcome.errors));
       const QString start = pointer.isEmpty() ? file + ": " : file + ": " + pointer + ": ";
       QVERIFY2(outcome.errors.startsWith(start), qPrintable(outcome.errors));
@@ -104,8 +113,22 @@ class TestCliBadInput : public QObject {
 
   /// Values of a good scene deleted or replaced at random: each result is either a model or an InputError.
   void randomEditsEitherLoadOrAreRefused() {
-    const std::vector<Json> replacements{nullptr, true, 0, -1, 1e300, -2.5, 7, "", "3 kg", "x", "2 mm", Json::array(),
-                                         Json::object(), {1, 2, 3}, {{"nodes", {0}}}, {0.0, 0.0, 0.0}};
+    const std::vector<Json> replacements{nullptr,
+                                         true,
+                                         0,
+                                         -1,
+                                         1e300,
+                                         -2.5,
+                                         7,
+                                         "",
+                                         "3 kg",
+                                         "x",
+                                         "2 mm",
+                                         Json::array(),
+                                         Json::object(),
+                                         {1, 2, 3},
+                                         {{"nodes", {0}}},
+                                         {0.0, 0.0, 0.0}};
     std::vector<std::string> pointers;
     const Json original = Json::parse(test::fullScene);
     const Json flat = original.flatten();
@@ -118,9 +141,12 @@ class TestCliBadInput : public QObject {
       for (unsigned edits = 1 + random() % 2; edits > 0; --edits) {
         const Json::json_pointer place(pointers[random() % pointers.size()]);
         if (!json.contains(place)) continue;
-        if (random() % 3 > 0) json[place] = replacements[random() % replacements.size()];
-        else if (json[place.parent_pointer()].is_object()) json[place.parent_pointer()].erase(place.back());
-        else json[place.parent_pointer()].erase(std::stoul(place.back()));
+        if (random() % 3 > 0)
+          json[place] = replacements[random() % replacements.size()];
+        else if (json[place.parent_pointer()].is_object())
+          json[place.parent_pointer()].erase(place.back());
+        else
+          json[place.parent_pointer()].erase(std::stoul(place.back()));
       }
       try {
         scene::buildModel(test::parse(json.dump()));

@@ -82,17 +82,28 @@ class TestUnits : public QObject {
     QTest::addColumn<QString>("says");
     for (const char* text : {"", " ", "nan", "inf", "-inf", "mm", "1,5 mm", "abc", "--3", "0x10 mm", "- 3 m", "+-3 m"})
       QTest::addRow("<%s>", text) << text << "";
-    QTest::newRow("mass") << "3 kg" << "wrong unit; expected a value in m";
-    QTest::newRow("frequency") << "3 Hz" << "wrong unit";
-    QTest::newRow("unknown") << "3 furlong" << "\"furlong\" is not known";
-    QTest::newRow("incomplete") << "3 m/" << "incomplete";
-    QTest::newRow("double slash") << "3 m//s" << "incomplete";
-    QTest::newRow("exponent") << "3 m^x" << "exponent";
-    QTest::newRow("huge exponent") << "3 m^99999999999" << "exponent";
-    QTest::newRow("overflow") << "1e999 m" << "too large";
-    QTest::newRow("overflow by prefix") << "1e308 km" << "too large";
-    QTest::newRow("prefix alone") << "3 k" << "not known";
-    QTest::newRow("two prefixes") << "3 mmm" << "not known";
+    QTest::newRow("mass") << "3 kg"
+                          << "wrong unit; expected a value in m";
+    QTest::newRow("frequency") << "3 Hz"
+                               << "wrong unit";
+    QTest::newRow("unknown") << "3 furlong"
+                             << "\"furlong\" is not known";
+    QTest::newRow("incomplete") << "3 m/"
+                                << "incomplete";
+    QTest::newRow("double slash") << "3 m//s"
+                                  << "incomplete";
+    QTest::newRow("exponent") << "3 m^x"
+                              << "exponent";
+    QTest::newRow("huge exponent") << "3 m^99999999999"
+                                   << "exponent";
+    QTest::newRow("overflow") << "1e999 m"
+                              << "too large";
+    QTest::newRow("overflow by prefix") << "1e308 km"
+                                        << "too large";
+    QTest::newRow("prefix alone") << "3 k"
+                                  << "not known";
+    QTest::newRow("two prefixes") << "3 mmm"
+                                  << "not known";
   }
   void refusesWhatIsNoQuantity() {
     QFETCH(QString, text);
@@ -138,8 +149,8 @@ class TestUnits : public QObject {
     QFETCH(double, value);
     QFETCH(int, which);
     QFETCH(QString, text);
-    const Dimension all[] = {dim::mass, dim::length, dim::pressure, dim::angularFrequency, dim::angle, dim::none,
-                             dim::stiffness, dim::density};
+    const Dimension all[] = {dim::mass,  dim::length, dim::pressure,  dim::angularFrequency,
+                             dim::angle, dim::none,   dim::stiffness, dim::density};
     QCOMPARE(QString::fromStdString(formatQuantity(value, all[which])), text);
   }
 

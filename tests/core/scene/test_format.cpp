@@ -32,7 +32,8 @@ class TestFormat : public QObject {
         "jsonschema.Draft202012Validator.check_schema(schema)\n"
         "validator = jsonschema.Draft202012Validator(schema)\n"
         "print(' '.join(str(int(validator.is_valid(json.load(open(file))))) for file in sys.argv[2:]))\n";
-    QStringList arguments{"-c", program, QString::fromStdString((root_ / "resources/pliant-scene.schema.json").string())};
+    QStringList arguments{
+        "-c", program, QString::fromStdString((root_ / "resources/pliant-scene.schema.json").string())};
     for (const auto& scene : scenes) arguments << QString::fromStdString(scene.string());
     QProcess process;
     process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
@@ -43,8 +44,9 @@ class TestFormat : public QObject {
 
  private slots:
   void theSchemaIsCurrent() {
-    QVERIFY2(scene::readTextFile(root_ / "resources/pliant-scene.schema.json") == scene::formatJson(scene::jsonSchema()),
-             "Run: build/bin/pliant-cli schema > resources/pliant-scene.schema.json");
+    QVERIFY2(
+        scene::readTextFile(root_ / "resources/pliant-scene.schema.json") == scene::formatJson(scene::jsonSchema()),
+        "Run: build/bin/pliant-cli schema > resources/pliant-scene.schema.json");
   }
 
   void theTablesAreCurrent() {

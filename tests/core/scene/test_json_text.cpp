@@ -19,8 +19,10 @@ class TestJsonText : public QObject {
     if (kind == 3) return std::string(random() % 60, 'a') + "\"\\\né/~";
     Json result = kind == 4 ? Json::array() : Json::object();
     for (unsigned i = 0; i < random() % 8; ++i) {
-      if (kind == 4) result.push_back(randomValue(random, depth - 1));
-      else result["key " + std::to_string(i)] = randomValue(random, depth - 1);
+      if (kind == 4)
+        result.push_back(randomValue(random, depth - 1));
+      else
+        result["key " + std::to_string(i)] = randomValue(random, depth - 1);
     }
     return result;
   }
@@ -58,7 +60,11 @@ class TestJsonText : public QObject {
     row("twice", "{\"a\": 1, \"a\": 2}", "/a", "twice");
     row("trailing", "{} x", "", "line 1, column 4");
     row("slash in key", "{\"a/b\": x}", "/a~1b", "line 1");
-    row("bytes", QByteArray("\x7f" "ELF\0\x01\xff\xfe", 8), "", "line 1, column 1");
+    row("bytes",
+        QByteArray("\x7f"
+                   "ELF\0\x01\xff\xfe",
+                   8),
+        "", "line 1, column 1");
     row("bad UTF-8", "{\"a\": \"\xff\"}", "/a", "UTF-8");
     row("deep", QByteArray(100000, '['), QByteArray("/0").repeated(65), "nested");
   }

@@ -25,13 +25,20 @@ class TestMigration : public QObject {
   void refusesVersionsItCannotReach_data() {
     QTest::addColumn<QString>("scene");
     QTest::addColumn<QString>("location");
-    QTest::newRow("missing") << "{}" << "/schema_version";
-    QTest::newRow("newer") << R"({"schema_version": 4})" << "/schema_version";
-    QTest::newRow("older than any") << R"({"schema_version": 0})" << "/schema_version";
-    QTest::newRow("far older") << R"({"schema_version": -9000000000000000000})" << "/schema_version";
-    QTest::newRow("text") << R"({"schema_version": "3"})" << "/schema_version";
-    QTest::newRow("fraction") << R"({"schema_version": 2.5})" << "/schema_version";
-    QTest::newRow("no object") << "[1]" << "";
+    QTest::newRow("missing") << "{}"
+                             << "/schema_version";
+    QTest::newRow("newer") << R"({"schema_version": 4})"
+                           << "/schema_version";
+    QTest::newRow("older than any") << R"({"schema_version": 0})"
+                                    << "/schema_version";
+    QTest::newRow("far older") << R"({"schema_version": -9000000000000000000})"
+                               << "/schema_version";
+    QTest::newRow("text") << R"({"schema_version": "3"})"
+                          << "/schema_version";
+    QTest::newRow("fraction") << R"({"schema_version": 2.5})"
+                              << "/schema_version";
+    QTest::newRow("no object") << "[1]"
+                               << "";
   }
   void refusesVersionsItCannotReach() {
     QFETCH(QString, scene);

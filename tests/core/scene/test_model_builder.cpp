@@ -127,11 +127,12 @@ class TestModelBuilder : public QObject {
     row("element without triangles", "\"shell\", \"geometry\": \"sheet\"", "\"shell\", \"geometry\": \"hooks\"",
         "/elements/0/geometry");
     row("node that nothing holds", "\"points\": [[0, 0, 0.3]", "\"points\": [[0, 0, 7], [0, 0, 0.3]", "/geometry/1");
-    row("no triangles", "\"type\": \"points\", \"points\"", "\"type\": \"mesh\", \"triangles\": [], \"points\"", "/geometry/1");
-    row("node of a triangle", "\"type\": \"points\", \"points\"", "\"type\": \"mesh\", \"triangles\": [[0, 1, 2]], \"points\"",
-        "/geometry/1/triangles/0/2");
-    row("degenerate triangle", "\"type\": \"points\", \"points\"", "\"type\": \"mesh\", \"triangles\": [[0, 1, 1]], \"points\"",
+    row("no triangles", "\"type\": \"points\", \"points\"", "\"type\": \"mesh\", \"triangles\": [], \"points\"",
         "/geometry/1");
+    row("node of a triangle", "\"type\": \"points\", \"points\"",
+        "\"type\": \"mesh\", \"triangles\": [[0, 1, 2]], \"points\"", "/geometry/1/triangles/0/2");
+    row("degenerate triangle", "\"type\": \"points\", \"points\"",
+        "\"type\": \"mesh\", \"triangles\": [[0, 1, 1]], \"points\"", "/geometry/1");
     row("missing file", "\"type\": \"points\", \"points\": [[0, 0, 0.3], [\"1 mm\", 0, 0.4]]",
         "\"type\": \"file\", \"path\": \"nothing.stl\"", "/geometry/1/path");
   }

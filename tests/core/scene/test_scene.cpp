@@ -70,20 +70,28 @@ class TestScene : public QObject {
   void aWrongEditChangesNothing_data() {
     QTest::addColumn<QString>("pointer");
     QTest::addColumn<QString>("value");
-    QTest::newRow("negative") << "/point_masses/0/mass" << "-1";
-    QTest::newRow("unknown key") << "/point_masses/0/mas" << "1";
-    QTest::newRow("beyond the list") << "/point_masses/7/mass" << "1";
-    QTest::newRow("below a number") << "/point_masses/0/mass/0" << "1";
-    QTest::newRow("no pointer") << "mass" << "1";
-    QTest::newRow("bad escape") << "/a~7" << "1";
-    QTest::newRow("everything") << "" << "3";
+    QTest::newRow("negative") << "/point_masses/0/mass"
+                              << "-1";
+    QTest::newRow("unknown key") << "/point_masses/0/mas"
+                                 << "1";
+    QTest::newRow("beyond the list") << "/point_masses/7/mass"
+                                     << "1";
+    QTest::newRow("below a number") << "/point_masses/0/mass/0"
+                                    << "1";
+    QTest::newRow("no pointer") << "mass"
+                                << "1";
+    QTest::newRow("bad escape") << "/a~7"
+                                << "1";
+    QTest::newRow("everything") << ""
+                                << "3";
   }
   void aWrongEditChangesNothing() {
     QFETCH(QString, pointer);
     QFETCH(QString, value);
     const Scene scene = test::parse(test::fullScene);
     const Json before = scene.json();
-    QVERIFY_EXCEPTION_THROWN(scene.withValue(pointer.toStdString(), Json::parse(value.toStdString())), base::InputError);
+    QVERIFY_EXCEPTION_THROWN(
+        scene.withValue(pointer.toStdString(), Json::parse(value.toStdString())), base::InputError);
     QCOMPARE(scene.json(), before);
   }
 

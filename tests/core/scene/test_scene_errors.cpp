@@ -33,7 +33,8 @@ class TestSceneErrors : public QObject {
     row("mass above its bound", "\"2 g\"", "\"2 g\", \"maximum\": \"1 g\"", "/point_masses/0/mass", "bounds");
     row("bounds crossed", "\"2 g\"", "\"2 g\", \"minimum\": 1, \"maximum\": 1", "/point_masses/0/maximum", "not above");
     row("zero mass without bound", "\"2 g\"", "0", "/point_masses/0/maximum", "missing");
-    row("ten million harmonics", "\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 10000000", "/studies/0/harmonics", "1 to 200");
+    row("ten million harmonics", "\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 10000000", "/studies/0/harmonics",
+        "1 to 200");
     row("half a harmonic", "\"2.5 Hz\"", "\"2.5 Hz\", \"harmonics\": 2.5", "/studies/0/harmonics", "whole number");
     row("too few samples", "\"2.5 Hz\"", "\"2.5 Hz\", \"samples\": 10", "/studies/0/samples", "at least 11");
     row("zero frequency", "\"2.5 Hz\"", "0", "/studies/0/frequency", "greater than 0 rad/s");
@@ -43,26 +44,29 @@ class TestSceneErrors : public QObject {
     row("zero axis", "\"axis\": [0, 1, 0],", "\"axis\": [0, 0, 0],", "/geometry/0/rotation/axis", "zero");
     row("unknown geometry", "\"skin\", \"type\": \"shell\", \"geometry\": \"sheet\"",
         "\"skin\", \"type\": \"shell\", \"geometry\": \"shet\"", "/elements/0/geometry", "did you mean \"sheet\"?");
-    row("geometry left out", "\"skin\", \"type\": \"shell\", \"geometry\": \"sheet\",", "\"skin\", \"type\": \"shell\",",
-        "/elements/0/geometry", "2 entries");
-    row("unknown study", "\"study\": \"motion\"", "\"study\": \"notion\"", "/expected/0/study", "did you mean \"motion\"?");
+    row("geometry left out", "\"skin\", \"type\": \"shell\", \"geometry\": \"sheet\",",
+        "\"skin\", \"type\": \"shell\",", "/elements/0/geometry", "2 entries");
+    row("unknown study", "\"study\": \"motion\"", "\"study\": \"notion\"", "/expected/0/study",
+        "did you mean \"motion\"?");
     row("unknown type", "\"type\": \"shell\"", "\"type\": \"solid\"", "/elements/0/type", "\"solid\"");
     row("type left out", "\"type\": \"grounded\", ", "", "/springs/2/type", "missing");
     row("type no text", "\"type\": \"grounded\"", "\"type\": 3", "/springs/2/type", "found the number 3");
     row("name twice", "\"hooks\", \"type\"", "\"sheet\", \"type\"", "/geometry/1/name", "twice");
     row("name is a path", "\"name\": \"motion\"", "\"name\": \"../motion\"", "/studies/0/name", "letters");
-    row("two selections", "\"group\": \"end\"", "\"group\": \"end\", \"nodes\": [1]", "/point_masses/0/at", "exactly one");
+    row("two selections", "\"group\": \"end\"", "\"group\": \"end\", \"nodes\": [1]", "/point_masses/0/at",
+        "exactly one");
     row("no selection", ", \"group\": \"end\"", "", "/point_masses/0/at", "exactly one");
     row("empty selection", "\"group\": \"end\"", "\"nodes\": []", "/point_masses/0/at/nodes", "1 to");
     row("negative node", "\"nodes\": [3]", "\"nodes\": [-3]", "/springs/0/from/nodes/0", "from 0");
-    row("two tolerances", "\"relative_tolerance\": 1e-6", "\"relative_tolerance\": 1e-6, \"tolerance\": 1", "/expected/0",
-        "exactly one");
+    row("two tolerances", "\"relative_tolerance\": 1e-6", "\"relative_tolerance\": 1e-6, \"tolerance\": 1",
+        "/expected/0", "exactly one");
     row("pointer", "\"/frequency\"", "\"frequency\"", "/expected/0/pointer", "pointer");
     row("third spring coefficient", "\"5 N/m^3\"", "\"5 N/m\"", "/springs/0/coefficients/2", "N/m^3");
     row("dimension", "\"title\"", "\"dimension\": 4, \"title\"", "/dimension", "1 to 3");
     row("mesh on a line", "\"title\"", "\"dimension\": 1, \"title\"", "/geometry/0/position", "list of 1");
     row("choice", "\"title\"", "\"mass_matrix\": \"lump\", \"title\"", "/mass_matrix", "did you mean \"lumped\"?");
-    row("not an object", "{\"name\": \"pet\", \"type\"", "3, {\"name\": \"pet\", \"type\"", "/materials/0", "an object");
+    row("not an object", "{\"name\": \"pet\", \"type\"", "3, {\"name\": \"pet\", \"type\"", "/materials/0",
+        "an object");
     row("Poisson's ratio", "0.36", "0.7", "/materials/0/poisson_ratio", "-0.99 to 0.5");
     row("version", "\"schema_version\": 1", "\"schema_version\": 2", "/schema_version", "newer");
     row("cut", "\"expected\": [{", "", "", "line");

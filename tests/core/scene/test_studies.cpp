@@ -203,7 +203,8 @@ class TestStudies : public QObject {
       if (++calls == 10) running->requestCancel();
     });
     running = &context;
-    const auto result = scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), "response")->run(context);
+    const auto result =
+        scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), "response")->run(context);
     QVERIFY(result->termination == base::TerminationType::cancelled);
     result->write(directory);
     const auto read = HarmonicResult::read(scene, directory);
@@ -214,9 +215,11 @@ class TestStudies : public QObject {
 
   void adaptiveHarmonicsRiseUntilEnough() {
     const Scene duffing = Scene::load(fs::path(PLIANT_SOURCE_DIR) / "scenes/harmonic/duffing.json");
-    const Scene scene = duffing.withValue(
-        "/studies/0", Json{{"name", "motion"}, {"type", "periodic_motion"}, {"frequency", 1}, {"harmonics", 1},
-                           {"harmonics_tolerance", 1e-6}});
+    const Scene scene = duffing.withValue("/studies/0", Json{{"name", "motion"},
+                                                             {"type", "periodic_motion"},
+                                                             {"frequency", 1},
+                                                             {"harmonics", 1},
+                                                             {"harmonics_tolerance", 1e-6}});
     const auto result = run(scene, "motion");
     QVERIFY(result->termination == base::TerminationType::converged);
     QVERIFY(result->problem->basis().harmonics() >= 5);
