@@ -54,7 +54,8 @@ ElasticAssembler::ElasticAssembler(std::shared_ptr<const Model> model) : model_(
 
 int ElasticAssembler::paddedRows(int samples) { return (samples + width - 1) / width * width; }
 
-void ElasticAssembler::evaluate(const Matrix& x, Matrix& gradient, Matrix* hessian) const {
+void ElasticAssembler::evaluate(const Matrix& x, Matrix& gradient, Matrix* hessian,
+                                const StressSource* stresses) const {
   const Eigen::Index rows = x.rows(), coordinates = x.cols(), entries = hessian ? entryCount() : 0;
   gradient.resize(rows, coordinates);
   if (hessian) hessian->resize(rows, entries);
@@ -62,20 +63,28 @@ void ElasticAssembler::evaluate(const Matrix& x, Matrix& gradient, Matrix* hessi
     // A packet is evaluated in a matrix of its own: entries that lie side by side use the caches better, and threads
     // never write to the same cache line.
     thread_local Eigen::Matrix<double, width, Eigen::Dynamic> work;
-    work.resize(width, 2 * coordinates + entries);
+    work.resize(width, (stresses ? 4 : 2) * coordinates + entries);
     work.leftCols(coordinates) = x.middleRows<width>(packet * width);
-    work.rightCols(coordinates + entries).setZero();
+    work.middleCols(coordinates, coordinates + entries).setZero();
+    if (stresses) {
+      work.middleCols(2 * coordinates + entries, coordinates) = stresses->from.middleRows<width>(packet * width);
+      work.middleCols(3 * coordinates + entries, coordinates) = stresses->to.middleRows<width>(packet * width);
+    }
     EvaluationBlock<math::Packet> block;
     block.x = work.data();
     block.gradient = work.data() + coordinates * width;
     block.hessian = hessian ? work.data() + 2 * coordinates * width : nullptr;
     block.stride = width;
+    if (stresses) {
+      block.stressFrom = work.data() + (2 * coordinates + entries) * width;
+      block.stressTo = work.data() + (3 * coordinates + entries) * width;
+    }
     for (std::size_t i = 0; i < model_->energies.size(); ++i) {
       block.entries = entries_[i].data();
       model_->energies[i]->accumulate(block);
     }
     gradient.middleRows<width>(packet * width) = work.middleCols(coordinates, coordinates);
-    if (hessian) hessian->middleRows<width>(packet * width) = work.rightCols(entries);
+    if (hessian) hessian->middleRows<width>(packet * width) = work.middleCols(2 * coordinates, entries);
   });
 }
 

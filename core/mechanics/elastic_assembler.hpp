@@ -10,6 +10,16 @@ namespace pliant::mechanics {
 /// the threads, each element visited once. Sums run in a fixed order, so results do not depend on the threads.
 class ElasticAssembler {
  public:
+  /// Stresses for Hessians other than those at x: linearised at `from` and extrapolated to `to` (both like x), by every
+  /// energy whose elements can (membranes). A Newton iterate or a prediction that is off by δ bears spurious stresses
+  /// of second order in δ, which in a thin shell outweigh its bending stiffness however small δ is; the stresses
+  /// expected by linearisation do not, and convergence is no longer confined to errors of a fraction of the thickness
+  /// (mixed integration point iteration: Magisano, Leonetti & Garcea 2017).
+  struct StressSource {
+    Matrix from;
+    Matrix to;
+  };
+
   explicit ElasticAssembler(std::shared_ptr<const Model> model);
 
   /// Lower triangle of the free-free Hessian: rows_[s] >= columns_[s] are free indices of entry s, sorted by column.
@@ -21,8 +31,9 @@ class ElasticAssembler {
   static int paddedRows(int samples);
 
   /// `x`: paddedRows x coordinates, one configuration a row [m] (padding rows must hold valid positions: repeat a row).
-  /// Fills `gradient` (like x) and, if not null, `hessian` (paddedRows x entryCount).
-  void evaluate(const Matrix& x, Matrix& gradient, Matrix* hessian) const;
+  /// Fills `gradient` (like x) and, if not null, `hessian` (paddedRows x entryCount), with the stresses of `stresses`
+  /// if it is not null.
+  void evaluate(const Matrix& x, Matrix& gradient, Matrix* hessian, const StressSource* stresses = nullptr) const;
 
   /// The energy [J], its gradient on all coordinates, and its free-free Hessian (full, symmetric) at one configuration.
   double value(const Vector& x) const;

@@ -12,6 +12,8 @@ namespace pliant::mechanics {
 ///   static constexpr std::string_view name;
 ///   template <class T> T evaluate(const std::array<T, d>& x, std::array<T, d>* gradient,
 ///                                 std::array<T, d(d+1)/2>* hessian) const;
+/// (or with two more arguments, `const std::array<T, d>* stressFrom, const std::array<T, d>* stressTo`: see
+/// ElasticAssembler::StressSource; both may be null)
 /// which returns the element's energy and overwrites the derivatives that are asked for (Hessian packed by rows of
 /// the lower triangle). Adding a kind of energy is writing such a struct.
 template <class Element>
@@ -33,6 +35,23 @@ class ElementEnergy final : public Energy {
 
  private:
   template <class T>
+  T evaluateElement(std::size_t e, const EvaluationBlock<T>& block, const std::array<T, d>& x,
+                    std::array<T, d>* gradient, std::array<T, packedSize(d)>* hessian) const {
+    const Element& element = elements_[e];
+    if constexpr (requires { element.evaluate(x, gradient, hessian, &x, &x); }) {
+      if (block.stressFrom) {
+        std::array<T, d> from, to;
+        for (int i = 0; i < d; ++i) {
+          math::load(block.stressFrom + coordinates_[e][i] * block.stride, from[i]);
+          math::load(block.stressTo + coordinates_[e][i] * block.stride, to[i]);
+        }
+        return element.evaluate(x, gradient, hessian, &from, &to);
+      }
+    }
+    return element.evaluate(x, gradient, hessian);
+  }
+
+  template <class T>
   void accumulateAll(const EvaluationBlock<T>& block) const {
     std::array<T, d> x, gradient;
     std::array<T, packedSize(d)> hessian;
@@ -40,7 +59,7 @@ class ElementEnergy final : public Energy {
       const auto& coordinates = coordinates_[e];
       for (int i = 0; i < d; ++i) math::load(block.x + coordinates[i] * block.stride, x[i]);
       const T value =
-          elements_[e].evaluate(x, block.gradient ? &gradient : nullptr, block.hessian ? &hessian : nullptr);
+          evaluateElement(e, block, x, block.gradient ? &gradient : nullptr, block.hessian ? &hessian : nullptr);
       if (block.value) math::addTo(block.value, value);
       if (block.gradient)
         for (int i = 0; i < d; ++i) math::addTo(block.gradient + coordinates[i] * block.stride, gradient[i]);

@@ -17,6 +17,9 @@ struct EvaluationBlock {
   double* hessian = nullptr;     ///< entry s of the pattern at hessian[s * stride] [N/m]; added to; null: not wanted
   const int* entries = nullptr;  ///< element-wise packed lower triangles -> entry of the pattern, -1: not wanted
   long stride = 1;
+  /// Like x, or both null: see ElasticAssembler::StressSource.
+  const double* stressFrom = nullptr;
+  const double* stressTo = nullptr;
 };
 
 /// Packed lower triangle: entry (row, column) with row >= column.

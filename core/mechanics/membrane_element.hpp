@@ -20,7 +20,8 @@ struct MembraneElement {
 
   template <class T>
   T evaluate(const std::array<T, coordinates>& x, std::array<T, coordinates>* gradient,
-             std::array<T, packedSize(coordinates)>* hessian) const {
+             std::array<T, packedSize(coordinates)>* hessian, const std::array<T, coordinates>* stressFrom = nullptr,
+             const std::array<T, coordinates>* stressTo = nullptr) const {
     constexpr int n = dimension;
     std::array<T, n> e1, e2;
     T a11 = 0.0, a22 = 0.0, a12 = 0.0;
@@ -46,7 +47,25 @@ struct MembraneElement {
         (*gradient)[n + i] = g1;
         (*gradient)[2 * n + i] = g2;
       }
-    if (hessian) fillHessian(e1, e2, s1, s2, s3, *hessian);
+    if (hessian && stressFrom) {
+      T b11 = 0.0, b22 = 0.0, b12 = 0.0;
+      for (int i = 0; i < n; ++i) {
+        const T f1 = (*stressFrom)[n + i] - (*stressFrom)[i];
+        const T f2 = (*stressFrom)[2 * n + i] - (*stressFrom)[i];
+        const T t1 = (*stressTo)[n + i] - (*stressTo)[i];
+        const T t2 = (*stressTo)[2 * n + i] - (*stressTo)[i];
+        b11 += f1 * (2.0 * t1 - f1);
+        b22 += f2 * (2.0 * t2 - f2);
+        b12 += f1 * t2 + t1 * f2 - f1 * f2;
+      }
+      b11 -= restMetric[0];
+      b22 -= restMetric[1];
+      b12 -= restMetric[2];
+      fillHessian(e1, e2, q11 * b11 + q21 * b22 + q31 * b12, q21 * b11 + q22 * b22 + q32 * b12,
+                  q31 * b11 + q32 * b22 + q33 * b12, *hessian);
+    } else if (hessian) {
+      fillHessian(e1, e2, s1, s2, s3, *hessian);
+    }
     return 0.5 * (s1 * a11 + s2 * a22 + s3 * a12);
   }
 
