@@ -23,6 +23,12 @@ class ResponseBranch final : public solvers::ContinuationProblem {
     solver_.linearize(z, omega, h, &frequencyDerivative);
     return frequencyDerivative;
   }
+  Vector linearizePrediction(const Vector& z, double omega, const solvers::BranchPoint& from, double step) override {
+    const StressSource stresses{from.x, from.x + step * from.direction};
+    Vector h, frequencyDerivative;
+    solver_.linearize(z, omega, h, &frequencyDerivative, &stresses);
+    return frequencyDerivative;
+  }
   Vector multiply(const Vector& v) override { return solver_.multiply(v); }
   bool factorize() override { return solver_.factorize(); }
   Vector solve(const Vector& b) override { return solver_.solve(b); }
@@ -33,8 +39,7 @@ class ResponseBranch final : public solvers::ContinuationProblem {
     if (probes.empty()) return Vector::Constant(1, problem_.oscillation(point.x).dot(point.direction));
     Vector rates(static_cast<Eigen::Index>(probes.size()));
     for (std::size_t p = 0; p < probes.size(); ++p)
-      rates[static_cast<Eigen::Index>(p)] =
-          pathLengthGradient(problem_, point.x, probes[p].node).dot(point.direction);
+      rates[static_cast<Eigen::Index>(p)] = pathLengthGradient(problem_, point.x, probes[p].node).dot(point.direction);
     return rates;
   }
 
@@ -59,7 +64,7 @@ solvers::ContinuationOptions continuationOptions(const HarmonicBalanceProblem& p
   continuation.orientation = options.to > options.from ? 1 : -1;
   continuation.stateScale = swing > 0 ? swing : 1.0;
   continuation.parameterScale = range;
-  continuation.initialStep = options.initialStep > 0 ? options.initialStep : 0.02;
+  continuation.initialStep = options.initialStep > 0 ? options.initialStep : 0.005;
   continuation.minimumStep = options.minimumStep > 0 ? options.minimumStep : continuation.initialStep / 4096;
   if (options.maximumStep > 0) continuation.maximumStep = options.maximumStep;
   continuation.maximumParameterStep = range / 40;

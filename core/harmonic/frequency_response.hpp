@@ -9,11 +9,11 @@
 namespace pliant::harmonic {
 
 struct FrequencyResponseOptions {
-  double from = 0;               ///< first frequency [rad/s]; may be above `to`: the curve is traced downwards
-  double to = 0;                 ///< the curve ends where it crosses `from` or `to` again [rad/s]
-  double initialStep = 0;        ///< in the scaled arc length; 0: a fiftieth of the range
-  double minimumStep = 0;        ///< 0: initialStep / 4096
-  double maximumStep = 0;        ///< 0: limited by curvature and by a fortieth of the range in frequency alone
+  double from = 0;         ///< first frequency [rad/s]; may be above `to`: the curve is traced downwards
+  double to = 0;           ///< the curve ends where it crosses `from` or `to` again [rad/s]
+  double initialStep = 0;  ///< in the scaled arc length; 0: 0.005
+  double minimumStep = 0;  ///< 0: initialStep / 4096
+  double maximumStep = 0;  ///< 0: limited by curvature and by a fortieth of the range in frequency alone
   int maximumPoints = 2000;
   double locationTolerance = 1e-6;  ///< relative error of the frequency of folds and peaks
   PeriodicMotionOptions newton;
@@ -24,12 +24,12 @@ enum class PointKind { regular, fold, peak };
 /// One solution on the curve.
 struct ResponsePoint {
   PointKind kind = PointKind::regular;
-  int probe = -1;           ///< peak: of which probe; -1 for a model without probes
-  double omega = 0;         ///< [rad/s]
-  double arcLength = 0;     ///< along the curve, in the scaled measure (Δz / swing at the start, Δω / range)
-  Vector z;                 ///< coefficients
+  int probe = -1;        ///< peak: of which probe; -1 for a model without probes
+  double omega = 0;      ///< [rad/s]
+  double arcLength = 0;  ///< along the curve, in the scaled measure (Δz / swing at the start, Δω / range)
+  Vector z;              ///< coefficients
   std::vector<Amplitude> amplitudes;  ///< a probe each
-  double residual = 0;      ///< ‖h‖ / forceScale
+  double residual = 0;                ///< ‖h‖ / forceScale
   int newtonIterations = 0;
 };
 
@@ -38,12 +38,12 @@ struct FrequencyResponse {
   base::SolverReport report;          ///< one record a point
 };
 
-/// Pseudo-arclength continuation (2.3.18, 2.3.19) with step control, through folds, until the curve leaves the range; the
-/// last point lies exactly on the range's end. Folds (dω/ds = 0) and resonance peaks of every probe's path length (dA/ds
-/// changes from positive to negative) are located and stand among the points. A model without probes has the peaks of
-/// the root mean square swing of its free coordinates, ‖z without constants‖. `onPoint` is called with each point as it
-/// is found (from the calling thread). If cancelled or stuck, the points so far are returned with the reason. Throws
-/// base::InputError if a frequency is not finite and positive or the range is empty.
+/// Pseudo-arclength continuation (2.3.18, 2.3.19) with step control, through folds, until the curve leaves the range;
+/// the last point lies exactly on the range's end. Folds (dω/ds = 0) and resonance peaks of every probe's path length
+/// (dA/ds changes from positive to negative) are located and stand among the points. A model without probes has the
+/// peaks of the root mean square swing of its free coordinates, ‖z without constants‖. `onPoint` is called with each
+/// point as it is found (from the calling thread). If cancelled or stuck, the points so far are returned with the
+/// reason. Throws base::InputError if a frequency is not finite and positive or the range is empty.
 FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
                                          base::ExecutionContext& context,
                                          const std::function<void(const ResponsePoint&)>& onPoint = {});

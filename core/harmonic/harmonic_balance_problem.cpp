@@ -133,6 +133,7 @@ struct HarmonicBalanceProblem::Workspace {
   Matrix gradient;   ///< likewise
   Matrix hessian;    ///< padded N x entries
   Matrix hessianCoefficients;
+  mechanics::ElasticAssembler::StressSource stresses;
   SolutionCost cost;
 };
 
@@ -184,17 +185,26 @@ Vector HarmonicBalanceProblem::oscillation(const Vector& z) const {
   return swing;
 }
 
-void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian) const {
+void HarmonicBalanceProblem::samplePositions(const Vector& z, double fraction, Matrix& positions) const {
+  const Structure& s = *structure_;
+  const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
+  positions.resize(s.synthesis.rows(), s.model->coordinateCount());
+  positions.rowwise() = s.steadyConfiguration.transpose();
+  for (std::size_t c = 0; c < s.drivenCoordinates.size(); ++c)
+    positions.col(s.drivenCoordinates[c]) += fraction * s.swing.col(static_cast<Eigen::Index>(c));
+  positions(Eigen::all, s.model->dofs.freeCoordinates) = s.synthesis * coefficients;
+}
+
+void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian, const StressSource* stresses) const {
   const Structure& s = *structure_;
   Workspace& w = *workspace_;
   const auto begin = std::chrono::steady_clock::now();
-  const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
-  w.positions.resize(s.synthesis.rows(), s.model->coordinateCount());
-  w.positions.rowwise() = s.steadyConfiguration.transpose();
-  for (std::size_t c = 0; c < s.drivenCoordinates.size(); ++c)
-    w.positions.col(s.drivenCoordinates[c]) += driveFraction_ * s.swing.col(static_cast<Eigen::Index>(c));
-  w.positions(Eigen::all, s.model->dofs.freeCoordinates) = s.synthesis * coefficients;
-  s.assembler.evaluate(w.positions, w.gradient, withHessian ? &w.hessian : nullptr);
+  samplePositions(z, driveFraction_, w.positions);
+  if (stresses) {
+    samplePositions(stresses->from, stresses->fromFraction, w.stresses.from);
+    samplePositions(stresses->to, stresses->toFraction, w.stresses.to);
+  }
+  s.assembler.evaluate(w.positions, w.gradient, withHessian ? &w.hessian : nullptr, stresses ? &w.stresses : nullptr);
   ++w.cost.evaluations;
   w.cost.evaluationSeconds += secondsSince(begin);
 }
@@ -217,12 +227,12 @@ Vector HarmonicBalanceProblem::residual(const Vector& z, double omega) const {
 }
 
 void HarmonicBalanceProblem::linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian,
-                                       Vector* frequencyDerivative) const {
+                                       Vector* frequencyDerivative, const StressSource* stresses) const {
   const Structure& s = *structure_;
   Workspace& w = *workspace_;
   const double massDamping = s.model->massDamping;
   const double stiffnessDamping = s.model->stiffnessDamping;
-  evaluate(z, jacobian != nullptr);
+  evaluate(z, jacobian != nullptr, jacobian ? stresses : nullptr);
 
   const Matrix elastic =
       s.basis.analysis() * w.gradient.topRows(s.basis.samples())(Eigen::all, s.model->dofs.freeCoordinates);
@@ -236,8 +246,7 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double omega, Vector& h,
   if (frequencyDerivative)
     *frequencyDerivative =
         (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped();
-  if (jacobian)
-    s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
+  if (jacobian) s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
 }
 
 Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega,
@@ -249,15 +258,15 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega
   Matrix gradients(s.basis.samples(), m.dofs.freeCount());
   Matrix loads(s.basis.samples(), m.dofs.freeCount());
   for (int i = 0; i < s.basis.samples(); ++i) {
-    gradients.row(i) = parameter.gradientDerivative(m, positions.row(i).transpose())(m.dofs.freeCoordinates).transpose();
-    loads.row(i) = parameter.externalForceDerivative(m, sampleAngle(i, s.basis.samples()))(m.dofs.freeCoordinates)
-                       .transpose();
+    gradients.row(i) =
+        parameter.gradientDerivative(m, positions.row(i).transpose())(m.dofs.freeCoordinates).transpose();
+    loads.row(i) =
+        parameter.externalForceDerivative(m, sampleAngle(i, s.basis.samples()))(m.dofs.freeCoordinates).transpose();
   }
   const Matrix elastic = s.basis.analysis() * gradients;
   const Matrix inertial = inertialCoefficients(z, freeColumns(m, parameter.massDerivative(m)));
-  return (omega * omega * s.basis.secondDerivative(inertial) +
-          m.massDamping * omega * s.basis.derivative(inertial) + elastic +
-          m.stiffnessDamping * omega * s.basis.derivative(elastic) -
+  return (omega * omega * s.basis.secondDerivative(inertial) + m.massDamping * omega * s.basis.derivative(inertial) +
+          elastic + m.stiffnessDamping * omega * s.basis.derivative(elastic) -
           scaledLoads(s.basis.analysis() * loads, driveFraction_))
       .reshaped();
 }
@@ -279,12 +288,14 @@ Matrix HarmonicBalanceProblem::nodeTrajectory(const Vector& z, int node) const {
   for (int axis = 0; axis < d; ++axis) {
     const int coordinate = node * d + axis;
     if (const int f = s.model->dofs.freeIndex[coordinate]; f >= 0) {
-      positions.col(axis) = s.basis.synthesis() * z.segment(static_cast<Eigen::Index>(f) * s.basis.size(), s.basis.size());
+      positions.col(axis) =
+          s.basis.synthesis() * z.segment(static_cast<Eigen::Index>(f) * s.basis.size(), s.basis.size());
     } else {
       positions.col(axis).setConstant(s.steadyConfiguration[coordinate]);
       const auto found = std::find(s.drivenCoordinates.begin(), s.drivenCoordinates.end(), coordinate);
       if (found != s.drivenCoordinates.end())
-        positions.col(axis) += driveFraction_ * s.swing.col(found - s.drivenCoordinates.begin()).head(s.basis.samples());
+        positions.col(axis) +=
+            driveFraction_ * s.swing.col(found - s.drivenCoordinates.begin()).head(s.basis.samples());
     }
   }
   return positions;

@@ -27,6 +27,15 @@ struct SolutionCost {
   double seconds() const { return evaluationSeconds + factorizationSeconds + solveSeconds; }
 };
 
+/// Motions that the Jacobian's stresses are extrapolated from and to (ElasticAssembler::StressSource), with the
+/// fractions of the drive that belong to them.
+struct StressSource {
+  Vector from;
+  Vector to;
+  double fromFraction = 1;
+  double toFraction = 1;
+};
+
 /// The periodic motions of a model as roots of h(z, ω) = 0 (thesis 2.3.8).
 ///
 /// z holds the Fourier coefficients of the free coordinates' positions [m]: (2H+1) x nFree, column after column, so the
@@ -37,7 +46,8 @@ struct SolutionCost {
 /// free to prescribed coordinates are included.
 ///
 /// Threads: `residual`, `linearize` and `parameterDerivative` use working memory of the object, so one thread at a time
-/// may call them; all other const members may be called from any thread meanwhile. A copy has working memory of its own.
+/// may call them; all other const members may be called from any thread meanwhile. A copy has working memory of its
+/// own.
 class HarmonicBalanceProblem {
  public:
   HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis);
@@ -76,8 +86,10 @@ class HarmonicBalanceProblem {
 
   /// h(z, ω), size().
   Vector residual(const Vector& z, double omega) const;
-  /// h, ∂h/∂z (pattern constant) and ∂h/∂ω at once; null outputs are not computed.
-  void linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian, Vector* frequencyDerivative) const;
+  /// h, ∂h/∂z (pattern constant) and ∂h/∂ω at once; null outputs are not computed. ∂h/∂z is exact unless `stresses` are
+  /// given: with those of a better motion it makes a better step from a prediction or a Newton iterate than its own.
+  void linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian, Vector* frequencyDerivative,
+                 const StressSource* stresses = nullptr) const;
   /// ∂h/∂p, size().
   Vector parameterDerivative(const Vector& z, double omega, const mechanics::DesignParameter& parameter) const;
 
@@ -97,7 +109,8 @@ class HarmonicBalanceProblem {
   struct Structure;
   struct Workspace;
 
-  void evaluate(const Vector& z, bool withHessian) const;
+  void evaluate(const Vector& z, bool withHessian, const StressSource* stresses = nullptr) const;
+  void samplePositions(const Vector& z, double fraction, Matrix& positions) const;
   Matrix inertialCoefficients(const Vector& z, const SparseMatrix& massToFree) const;
 
   std::shared_ptr<const Structure> structure_;

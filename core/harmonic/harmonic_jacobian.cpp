@@ -140,13 +140,13 @@ void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double ma
 void HarmonicJacobian::writeBlock(const Block& block, const Matrix& coefficients, double omega, double massDamping,
                                   double* scratch, double* values) const {
   // The rows of a block are the pairs (sin jτ, cos jτ), j = 1 .. H, below the constant. With U[m] = (P[m], -Q[m]) and
-  // V[m] = (Q[m], P[m]) side by side, the pairs of the column sin kτ are U[j-k] - U[j+k] and d times them V[j-k] - V[j+k];
-  // those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m.
+  // V[m] = (Q[m], P[m]) side by side, the pairs of the column sin kτ are U[j-k] - U[j+k] and d times them V[j-k] -
+  // V[j+k]; those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m.
   const int h = harmonics_;
   const int width = 2 * h + 1;
-  double* u = scratch + 4 * h;                          // u[2m], u[2m+1] = U[m] for |m| <= 2H
-  double* v = u + 2 * (4 * h + 1);                      // likewise V
-  const double* weight = scratch + 4 * (4 * h + 1);     // weight[2j], weight[2j+1] = D_β ω j
+  double* u = scratch + 4 * h;                       // u[2m], u[2m+1] = U[m] for |m| <= 2H
+  double* v = u + 2 * (4 * h + 1);                   // likewise V
+  const double* weight = scratch + 4 * (4 * h + 1);  // weight[2j], weight[2j+1] = D_β ω j
 
   if (block.entry >= 0) {
     const double* k = coefficients.data() + coefficients.rows() * block.entry;
@@ -191,8 +191,8 @@ void HarmonicJacobian::writeBlock(const Block& block, const Matrix& coefficients
   }
   if (!block.diagonal) {
     for (int column = 0; column < width; ++column)
-      std::copy_n(values + block.lower + column * block.lowerStride, width,
-                  values + block.upper + column * block.upperStride);
+      std::copy_n(
+          values + block.lower + column * block.lowerStride, width, values + block.upper + column * block.upperStride);
   }
 }
 

@@ -13,11 +13,11 @@ using mechanics::Vector;
 
 /// Writes ∂h/∂z (2.3.13) straight into the value array of a matrix whose pattern never changes.
 ///
-/// Two coordinates that share a stiffness entry k(τ) are coupled by a dense (2H+1)-block, the discrete Γ⁻¹ k Γ. Products
-/// of sines and cosines are sums and differences of the Fourier coefficients of k up to order 2H,
+/// Two coordinates that share a stiffness entry k(τ) are coupled by a dense (2H+1)-block, the discrete Γ⁻¹ k Γ.
+/// Products of sines and cosines are sums and differences of the Fourier coefficients of k up to order 2H,
 ///   (sin jτ, sin kτ) = P[j-k] - P[j+k],   (cos jτ, cos kτ) = P[j-k] + P[j+k],   (sin jτ, cos kτ) = Q[j+k] + Q[j-k],
-/// with P[m] and Q[m] the means of k(τ_i) cos(m τ_i) and k(τ_i) sin(m τ_i) over the samples. This is an identity for any
-/// number of samples, so the blocks cost one matrix product for all coefficients and a few additions an entry.
+/// with P[m] and Q[m] the means of k(τ_i) cos(m τ_i) and k(τ_i) sin(m τ_i) over the samples. This is an identity for
+/// any number of samples, so the blocks cost one matrix product for all coefficients and a few additions an entry.
 /// Damping multiplies a block by (1 + D_β ω d) from the left; inertia and mass damping add to its diagonal pairs.
 ///
 /// Constant once built; any thread may use it.
@@ -30,8 +30,8 @@ class HarmonicJacobian {
   Eigen::Index size() const { return outerStarts_.size() - 1; }
   Eigen::Index entryCount() const { return outerStarts_[size()]; }
 
-  /// `stiffness`: at least N x (assembler's entryCount) samples of the Hessian's lower triangle [N/m]; `coefficients` is
-  /// working memory. `jacobian` gets the pattern if it has another one.
+  /// `stiffness`: at least N x (assembler's entryCount) samples of the Hessian's lower triangle [N/m]; `coefficients`
+  /// is working memory. `jacobian` gets the pattern if it has another one.
   void assemble(const Matrix& stiffness, double omega, double massDamping, double stiffnessDamping,
                 Matrix& coefficients, SparseMatrix& jacobian) const;
 

@@ -12,8 +12,9 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 
 }  // namespace
 
-void JacobianSolver::linearize(const Vector& z, double omega, Vector& h, Vector* frequencyDerivative) {
-  problem_.linearize(z, omega, h, &jacobian_, frequencyDerivative);
+void JacobianSolver::linearize(const Vector& z, double omega, Vector& h, Vector* frequencyDerivative,
+                               const StressSource* stresses) {
+  problem_.linearize(z, omega, h, &jacobian_, frequencyDerivative, stresses);
 }
 
 bool JacobianSolver::factorize() {

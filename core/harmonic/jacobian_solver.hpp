@@ -6,14 +6,15 @@
 
 namespace pliant::harmonic {
 
-/// ∂h/∂z of a problem and its factors, kept together so that pattern and symbolic analysis are made once. Counts what it
-/// does in `HarmonicBalanceProblem::cost`.
+/// ∂h/∂z of a problem and its factors, kept together so that pattern and symbolic analysis are made once. Counts what
+/// it does in `HarmonicBalanceProblem::cost`.
 class JacobianSolver {
  public:
   explicit JacobianSolver(const HarmonicBalanceProblem& problem) : problem_(problem) {}
 
-  /// Evaluates h, ∂h/∂z and (if not null) ∂h/∂ω.
-  void linearize(const Vector& z, double omega, Vector& h, Vector* frequencyDerivative);
+  /// Evaluates h, ∂h/∂z and (if not null) ∂h/∂ω; see HarmonicBalanceProblem::linearize.
+  void linearize(const Vector& z, double omega, Vector& h, Vector* frequencyDerivative,
+                 const StressSource* stresses = nullptr);
   /// Factorises ∂h/∂z as last linearised; false if it is singular.
   bool factorize();
   /// Solves with the factors last computed, which may belong to an earlier linearisation.

@@ -17,12 +17,16 @@ using base::TerminationType;
 
 class FixedFrequency final : public solvers::NonlinearSystem {
  public:
-  FixedFrequency(const HarmonicBalanceProblem& problem, JacobianSolver& solver, double omega)
-      : problem_(problem), solver_(solver), omega_(omega) {}
+  /// `predictedFrom`: the steady state that the start was extrapolated from by linearisation, or empty.
+  FixedFrequency(const HarmonicBalanceProblem& problem, JacobianSolver& solver, double omega, Vector predictedFrom)
+      : problem_(problem), solver_(solver), omega_(omega), stresses_{std::move(predictedFrom), {}, 0, 1} {}
 
   Vector residual(const Vector& z) override { return problem_.residual(z, omega_); }
   bool linearize(const Vector& z, Vector& h) override {
-    solver_.linearize(z, omega_, h, nullptr);
+    // Each iterate is extrapolated from the one before by linearisation, so the stresses are, too.
+    stresses_.to = z;
+    solver_.linearize(z, omega_, h, nullptr, stresses_.from.size() > 0 ? &stresses_ : nullptr);
+    stresses_ = {z, {}, 1, 1};
     return solver_.factorize();
   }
   Vector solve(const Vector& b) override { return solver_.solve(b); }
@@ -31,6 +35,7 @@ class FixedFrequency final : public solvers::NonlinearSystem {
   const HarmonicBalanceProblem& problem_;
   JacobianSolver& solver_;
   double omega_;
+  StressSource stresses_;
 };
 
 /// Motions at one frequency as a branch in the fraction of the drive.
@@ -45,16 +50,24 @@ class DriveRamp final : public solvers::ContinuationProblem {
     return problem_.residual(z, omega_);
   }
   double residualScale(double) override { return problem_.forceScale(omega_); }
-  Vector linearize(const Vector& z, double fraction) override {
-    const Vector derivative = driveDerivative(z, fraction);
-    problem_.setDriveFraction(fraction);
-    Vector h;
-    solver_.linearize(z, omega_, h, nullptr);
-    return derivative;
+  Vector linearize(const Vector& z, double fraction) override { return linearize(z, fraction, nullptr); }
+  Vector linearizePrediction(const Vector& z, double fraction, const solvers::BranchPoint& from, double step) override {
+    const StressSource stresses{
+        from.x, from.x + step * from.direction, from.parameter, from.parameter + step * from.parameterDirection};
+    return linearize(z, fraction, &stresses);
   }
   Vector multiply(const Vector& v) override { return solver_.multiply(v); }
   bool factorize() override { return solver_.factorize(); }
   Vector solve(const Vector& b) override { return solver_.solve(b); }
+
+ private:
+  Vector linearize(const Vector& z, double fraction, const StressSource* stresses) {
+    const Vector derivative = driveDerivative(z, fraction);
+    problem_.setDriveFraction(fraction);
+    Vector h;
+    solver_.linearize(z, omega_, h, nullptr, stresses);
+    return derivative;
+  }
 
   /// ∂h/∂fraction. Only predictions and rates of convergence depend on it, so a central difference will do.
   Vector driveDerivative(const Vector& z, double fraction) {
@@ -62,7 +75,6 @@ class DriveRamp final : public solvers::ContinuationProblem {
     return (residual(z, fraction + step) - residual(z, fraction - step)) / (2 * step);
   }
 
- private:
   HarmonicBalanceProblem& problem_;
   JacobianSolver& solver_;
   double omega_;
@@ -79,8 +91,8 @@ class MotionSearch {
     const auto begin = std::chrono::steady_clock::now();
     motion_.omega = omega_;
     bool done = false;
-    if (start.size() > 0) done = newtonFrom(start);
-    if (!done && findSteadyState()) done = newtonFrom(linearResponse()) || rampDrive();
+    if (start.size() > 0) done = newtonFrom(start, {});
+    if (!done && findSteadyState()) done = newtonFrom(linearResponse(), steady_) || rampDrive();
     motion_.factorization = solver_.factorization();
     motion_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(motion_);
@@ -88,8 +100,8 @@ class MotionSearch {
 
  private:
   /// True if there is nothing left to try: converged or cancelled.
-  bool newtonFrom(const Vector& start) {
-    FixedFrequency system(problem_, solver_, omega_);
+  bool newtonFrom(const Vector& start, const Vector& predictedFrom) {
+    FixedFrequency system(problem_, solver_, omega_, predictedFrom);
     solvers::NewtonOptions newton;
     newton.tolerance = options_.tolerance;
     newton.residualScale = problem_.forceScale(omega_);
@@ -115,7 +127,7 @@ class MotionSearch {
   /// The motion that the drive would cause if the model answered linearly about its steady state.
   Vector linearResponse() {
     DriveRamp ramp(problem_, solver_, omega_);
-    const Vector derivative = ramp.linearize(steady_, 0) /* ∂h/∂fraction */;
+    const Vector derivative = ramp.linearize(steady_, 0);
     if (!solver_.factorize()) return steady_;
     const Vector response = solver_.solve(derivative);
     return response.allFinite() ? Vector(steady_ - response) : steady_;
@@ -135,8 +147,8 @@ class MotionSearch {
     continuation.maximumPoints = options_.maximumRampSteps;
     solvers::ContinuationSolver solver(ramp, continuation);
     solvers::BranchPoint last;
-    motion_.report = solver.trace(steady_, 0, context_,
-                                  [&](const solvers::BranchPoint& point, solvers::BranchEvent, int) { last = point; });
+    motion_.report = solver.trace(
+        steady_, 0, context_, [&](const solvers::BranchPoint& point, solvers::BranchEvent, int) { last = point; });
     if (last.x.size() > 0) motion_.z = last.x;
     if (motion_.report.termination == TerminationType::cancelled) return true;
     if (motion_.report.converged() && last.parameter == 1) return true;
@@ -187,23 +199,25 @@ PeriodicMotion solvePeriodicMotion(HarmonicBalanceProblem& problem, double omega
   return MotionSearch(problem, omega, options, context).run(start);
 }
 
-std::pair<HarmonicBalanceProblem, PeriodicMotion> solveWithAdaptiveHarmonics(
-    HarmonicBalanceProblem problem, double omega, double relativeChange, int maximumHarmonics,
-    const PeriodicMotionOptions& options, base::ExecutionContext& context) {
+std::pair<HarmonicBalanceProblem, PeriodicMotion> solveWithAdaptiveHarmonics(HarmonicBalanceProblem problem,
+                                                                             double omega, double relativeChange,
+                                                                             int maximumHarmonics,
+                                                                             const PeriodicMotionOptions& options,
+                                                                             base::ExecutionContext& context) {
   PeriodicMotion motion = solvePeriodicMotion(problem, omega, options, context);
   while (motion.report.converged()) {
     const int harmonics = problem.basis().harmonics();
     if (harmonics >= maximumHarmonics) {
       motion.report.termination = TerminationType::iterationLimit;
-      motion.report.message = "The trajectories still change with " + std::to_string(harmonics) + " harmonics.";
+      motion.report.message = "It is not certain that " + std::to_string(harmonics) +
+                              " harmonics, the most allowed, are enough: the trajectories still change.";
       break;
     }
     const int more = std::min(harmonics + 2, maximumHarmonics);
-    HarmonicBalanceProblem finer(problem.sharedModel(),
-                                 {more, std::max(problem.basis().samples(), 4 * more + 1)});
+    HarmonicBalanceProblem finer(problem.sharedModel(), {more, std::max(problem.basis().samples(), 4 * more + 1)});
     PeriodicMotion finerMotion = solvePeriodicMotion(
         finer, omega, options, context, HarmonicBalanceProblem::changeHarmonics(motion.z, harmonics, more));
-    const bool settled = finerMotion.report.converged() &&
+    const bool settled = finerMotion.report.converged() && more == harmonics + 2 &&
                          relativeTrajectoryChange(problem, motion.z, finer, finerMotion.z) <= relativeChange;
     problem = std::move(finer);
     motion = std::move(finerMotion);

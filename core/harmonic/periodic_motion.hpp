@@ -22,19 +22,21 @@ struct PeriodicMotion {
   std::shared_ptr<const math::SparseFactorization> factorization;
 };
 
-/// Newton's method with a line search from `start`. Without one, or where it fails: from the static equilibrium under the
-/// steady load plus the linear response to the drive; where that fails too, the drive is ramped up by continuation.
+/// Newton's method with a line search from `start`. Without one, or where it fails: from the static equilibrium under
+/// the steady load plus the linear response to the drive; where that fails too, the drive is ramped up by continuation.
 /// Fails with a sentence that names a node and an axis if nothing holds the model there at rest.
 PeriodicMotion solvePeriodicMotion(HarmonicBalanceProblem& problem, double omega, const PeriodicMotionOptions& options,
                                    base::ExecutionContext& context, const Vector& start = {});
 
-/// Raises the number of harmonics from `problem`'s by two at a time (thesis 2.5.1; odd and even ones come in pairs, since
-/// symmetric models answer with one kind alone) until no probe's trajectory changes by more than `relativeChange` of its
-/// path length, up to `maximumHarmonics`; samples grow to at least 4H+1. Without probes all nodes count.
-/// Returns the problem with the harmonics that were enough and its motion; if `maximumHarmonics` were not enough, the
-/// report says iterationLimit.
-std::pair<HarmonicBalanceProblem, PeriodicMotion> solveWithAdaptiveHarmonics(
-    HarmonicBalanceProblem problem, double omega, double relativeChange, int maximumHarmonics,
-    const PeriodicMotionOptions& options, base::ExecutionContext& context);
+/// Raises the number of harmonics from `problem`'s by two at a time (thesis 2.5.1; odd and even ones come in pairs,
+/// since symmetric models answer with one kind alone) until no probe's trajectory changes by more than `relativeChange`
+/// of its path length, up to `maximumHarmonics`; samples grow to at least 4H+1. Without probes all nodes count. Returns
+/// the problem with the harmonics that were enough and its motion; if `maximumHarmonics` were not enough, the report
+/// says iterationLimit.
+std::pair<HarmonicBalanceProblem, PeriodicMotion> solveWithAdaptiveHarmonics(HarmonicBalanceProblem problem,
+                                                                             double omega, double relativeChange,
+                                                                             int maximumHarmonics,
+                                                                             const PeriodicMotionOptions& options,
+                                                                             base::ExecutionContext& context);
 
 }  // namespace pliant::harmonic

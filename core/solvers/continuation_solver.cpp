@@ -4,35 +4,24 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/solvers/hermite_curve.hpp"
+
 namespace pliant::solvers {
 
 namespace {
 
-constexpr int maximumCorrections = 40;
-constexpr int maximumFactorizations = 10;  ///< for one point
+constexpr int maximumCorrections = 25;
 /// Corrections that shrink less than this from one to the next are not worth going on with: new factors cost about as
 /// much as ten corrections.
 constexpr double slowContraction = 0.3;
+/// What the first contraction after a prediction should be: larger steps save points, smaller ones corrections.
+constexpr double targetContraction = 0.1;
+/// Points, with their tangents, that a prediction is extrapolated from.
+constexpr std::size_t predictionPoints = 3;
+/// A tangent that only serves to predict need not be better than the prediction.
+constexpr double predictingTangentTolerance = 1e-4;
+constexpr double exactTangentTolerance = 1e-7;
 constexpr int maximumLocations = 40;
-
-/// Value and derivative by u of the cubic that has values y0, y1 and derivatives t0, t1 at u = 0 and u = length.
-struct Hermite {
-  const Eigen::VectorXd& y0;
-  const Eigen::VectorXd& t0;
-  const Eigen::VectorXd& y1;
-  const Eigen::VectorXd& t1;
-  double length;
-
-  Eigen::VectorXd value(double u) const {
-    const double r = u / length;
-    return (1 + r * r * (2 * r - 3)) * y0 + r * (1 - r) * (1 - r) * length * t0 + r * r * (3 - 2 * r) * y1 +
-           r * r * (r - 1) * length * t1;
-  }
-  Eigen::VectorXd derivative(double u) const {
-    const double r = u / length;
-    return 6 * r * (1 - r) / length * (y1 - y0) + (1 - r) * (1 - 3 * r) * t0 + r * (3 * r - 2) * t1;
-  }
-};
 
 double angleBetween(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return 2 * std::asin(std::min(1.0, 0.5 * (a - b).norm()));
@@ -69,12 +58,13 @@ BranchPoint ContinuationSolver::unscaled(const Point& point) const {
   return result;
 }
 
-/// Factors of ∂h/∂x where last linearised.
-bool ContinuationSolver::refactorize() {
+/// Factors of ∂h/∂x at `y`, where it was linearised last.
+bool ContinuationSolver::refactorize(const Vector& y) {
   factorized_ = problem_.factorize();
-  if (factorized_)
-    parameterColumn_ = problem_.solve(parameterDerivative_) * (options_.parameterScale / options_.stateScale);
-  return factorized_;
+  if (!factorized_) return false;
+  parameterColumn_ = problem_.solve(parameterDerivative_) * (options_.parameterScale / options_.stateScale);
+  factorPoint_ = y;
+  return true;
 }
 
 /// The solution (in scaled variables) of [∂h/∂x, ∂h/∂λ; normalᵀ] dy = [f; g] with the factors that there are.
@@ -87,13 +77,15 @@ ContinuationSolver::Vector ContinuationSolver::solveBordered(const Vector& f, do
   return dy;
 }
 
-/// Moves `point.y` within the plane normal to `normal` until h vanishes.
-ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vector& normal) {
+/// Moves `point.y` within the plane normal to `normal` until h vanishes. `point.y` was predicted `step` beyond `from`,
+/// if that is not null.
+ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vector& normal, const Point* from,
+                                                       double step) {
   const Eigen::Index n = point.y.size() - 1;
   double previous = 0;
-  bool slow = false;
+  int corrections = 2;  // made with the factors that there are
+  bool outdated = !factorized_ || (point.y - factorPoint_).norm() > reuseRadius_;
   bool settled = false;
-  factorizations_ = 0;
   for (point.iterations = 0;; ++point.iterations) {
     if (context_->cancelRequested()) return Status::cancelled;
     const Vector x = options_.stateScale * point.y.head(n);
@@ -103,36 +95,41 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
     if (!std::isfinite(point.residual)) return Status::failed;
     if (point.residual <= options_.tolerance || settled) return Status::converged;
     if (point.iterations == maximumCorrections) return Status::failed;
-    if (!factorized_ || slow) {
-      parameterDerivative_ = problem_.linearize(x, parameter);
-      if (factorizations_ == maximumFactorizations || !refactorize()) return Status::failed;
-      ++factorizations_;
-      slow = false;
+    if (outdated) {
+      parameterDerivative_ = from && point.iterations == 0
+                                 ? problem_.linearizePrediction(x, parameter, unscaled(*from), step)
+                                 : problem_.linearize(x, parameter);
+      if (!refactorize(point.y)) return Status::failed;
+      outdated = false;
+      corrections = 0;
       previous = 0;
     }
     const Vector correction = solveBordered(-h, 0, normal);
     const double size = correction.norm();
     if (!std::isfinite(size)) return Status::failed;
-    // No progress with these factors: drop the correction and go on with those of this iterate. The first iterates of a
-    // thin shell leave its nearly inextensible motions, so that Newton's corrections need not shrink from the start.
-    if (previous > 0 && size > previous) {
-      if (previous <= options_.roundingTolerance) return Status::converged;
-      slow = true;
+    const double contraction = previous > 0 ? size / previous : 0;
+    if (contraction >= 1) {  // no progress: drop the correction, and try again with new factors if that is new
+      if (previous <= options_.roundingTolerance && corrections > 1) return Status::converged;
+      if (corrections < 2) return Status::failed;
+      outdated = true;
       continue;
     }
     point.y += correction;
-    slow = previous > 0 && size > slowContraction * previous;
+    ++corrections;
+    if (point.iterations > 0 && previous > options_.roundingTolerance)
+      contractionRate_ = contraction / std::max((point.y - factorPoint_).norm(), 1e-300);
+    outdated = contraction > slowContraction && size > options_.roundingTolerance;
     previous = size;
     settled = size <= options_.stepTolerance;
   }
 }
 
 /// The unit tangent at a solution, from the exact Jacobian there, by refinement with the factors that there are.
-ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const Vector& normal) {
+ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const Vector& normal, double tolerance) {
   const Eigen::Index n = point.y.size() - 1;
   parameterDerivative_ =
       problem_.linearize(options_.stateScale * point.y.head(n), options_.parameterScale * point.y[n]);
-  if (!factorized_ && !refactorize()) return Status::failed;
+  if (!factorized_ && !refactorize(point.y)) return Status::failed;
   Vector tangent = normal;
   double previous = 0;
   bool fresh = false;
@@ -144,13 +141,13 @@ ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const V
     const double size = correction.norm();
     if (!std::isfinite(size)) return Status::failed;
     if (previous > 0 && size > slowContraction * previous && !fresh) {
-      if (!refactorize()) return Status::failed;
+      if (!refactorize(point.y)) return Status::failed;
       fresh = true;
       previous = 0;
       continue;
     }
     tangent += correction;
-    if (size <= 1e-9 * tangent.norm()) break;
+    if (size <= tolerance * tangent.norm()) break;
     previous = size;
   }
   point.tangent = tangent.normalized();
@@ -158,30 +155,34 @@ ContinuationSolver::Status ContinuationSolver::findTangent(Point& point, const V
 }
 
 /// A solution with its tangent and monitors, from a prediction.
-ContinuationSolver::Status ContinuationSolver::solveAt(Point& point, const Vector& predicted, const Vector& normal) {
+ContinuationSolver::Status ContinuationSolver::solveAt(Point& point, const Vector& predicted, const Vector& normal,
+                                                       const Point* from, double step, double tangentTolerance) {
   point.y = predicted;
-  Status status = correct(point, normal);
-  if (status == Status::converged) status = findTangent(point, normal);
+  Status status = correct(point, normal, from, step);
+  if (status == Status::converged) status = findTangent(point, normal, tangentTolerance);
   if (status == Status::converged) point.monitors = problem_.monitors(unscaled(point));
   return status;
 }
 
-ContinuationSolver::Status ContinuationSolver::advance(const Point* before, const Point& from, double step, Point& to,
-                                                       double& angle) {
-  Vector predicted = from.y + step * from.tangent;
-  Vector normal = from.tangent;
-  if (before) {
-    const double length = from.arcLength - before->arcLength;
-    const Hermite cubic{before->y, before->tangent, from.y, from.tangent, length};
-    predicted = cubic.value(length + step);
-    normal = cubic.derivative(length + step).normalized();
-  }
-  const Status status = solveAt(to, predicted, normal);
+/// The next point, `step` beyond the last of `history`; `growth` is the factor by which the step should change.
+ContinuationSolver::Status ContinuationSolver::advance(const std::vector<Point>& history, double step, Point& to,
+                                                       double& growth) {
+  const Point& from = history.back();
+  HermiteCurve curve;
+  for (const Point& point : history) curve.add(point.arcLength, point.y, point.tangent);
+  const Vector predicted = curve.value(from.arcLength + step);
+  const Vector normal = curve.derivative(from.arcLength + step).normalized();
+  const Status status = solveAt(to, predicted, normal, &from, step, predictingTangentTolerance);
   if (status != Status::converged) return status;
-  angle = angleBetween(from.tangent, to.tangent);
+  const double angle = angleBetween(from.tangent, to.tangent);
   to.arcLength = from.arcLength + arcBetween(from.y, to.y, angle);
   // A jump to another branch shows as a sharp turn, or as a correction of the size of the step.
-  const bool near = (to.y - predicted).norm() <= 0.5 * step;
+  const double distance = (to.y - predicted).norm();
+  const bool near = distance <= 0.5 * step;
+  // The prediction's error grows with a power of the step, and the first contraction with fresh factors with the error.
+  const double contraction = std::max(contractionRate_ * distance, 1e-12);
+  growth = std::min(std::pow(targetContraction / contraction, 0.5 / static_cast<double>(history.size())),
+                    options_.targetAngle / std::max(angle, 1e-12));
   return near && angle <= options_.maximumAngle ? Status::converged : Status::failed;
 }
 
@@ -199,10 +200,13 @@ ContinuationSolver::Status ContinuationSolver::locate(const Point& from, const P
   for (int iteration = 0; iteration < maximumLocations; ++iteration) {
     const double length = b.arcLength - a.arcLength;
     const double u = length * std::clamp(fa / (fa - fb), 0.01, 0.99);
-    const Hermite cubic{a.y, a.tangent, b.y, b.tangent, length};
+    HermiteCurve cubic;
+    cubic.add(a.arcLength, a.y, a.tangent);
+    cubic.add(b.arcLength, b.y, b.tangent);
     const double position = a.arcLength + u;
     root = Point{};
-    const Status status = solveAt(root, cubic.value(u), cubic.derivative(u).normalized());
+    const Status status =
+        solveAt(root, cubic.value(position), cubic.derivative(position).normalized(), &a, u, exactTangentTolerance);
     if (status != Status::converged) return status;
     root.arcLength = position;
     const double f = function(root);
@@ -232,10 +236,11 @@ ContinuationSolver::Status ContinuationSolver::locateBound(const Point& from, co
                                                            Point& end) {
   const double scaledBound = bound / options_.parameterScale;
   const Eigen::Index n = from.y.size() - 1;
-  const double length = to.arcLength - from.arcLength;
-  const Hermite cubic{from.y, from.tangent, to.y, to.tangent, length};
-  double low = 0;
-  double high = length;
+  HermiteCurve cubic;
+  cubic.add(from.arcLength, from.y, from.tangent);
+  cubic.add(to.arcLength, to.y, to.tangent);
+  double low = from.arcLength;
+  double high = to.arcLength;
   const bool rising = from.parameter() < scaledBound;
   for (int bisection = 0; bisection < 60; ++bisection) {
     const double middle = 0.5 * (low + high);
@@ -245,9 +250,10 @@ ContinuationSolver::Status ContinuationSolver::locateBound(const Point& from, co
   predicted[n] = scaledBound;
   end.y = predicted;
   const Vector fixed = Vector::Unit(n + 1, n);
-  Status status = correct(end, fixed);
-  if (status == Status::converged) status = findTangent(end, cubic.derivative(high).normalized());
-  end.arcLength = from.arcLength + high;
+  Status status = correct(end, fixed, &from, high - from.arcLength);
+  if (status == Status::converged)
+    status = findTangent(end, cubic.derivative(high).normalized(), predictingTangentTolerance);
+  end.arcLength = high;
   return status;
 }
 
@@ -310,24 +316,23 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
   current.y.resize(n + 1);
   current.y << x / options_.stateScale, parameter / options_.parameterScale;
   const Vector start = Vector::Unit(n + 1, n) * (options_.orientation < 0 ? -1.0 : 1.0);
-  Status status = solveAt(current, Vector(current.y), start);
+  Status status = solveAt(current, Vector(current.y), start, nullptr, 0, exactTangentTolerance);
   if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
   if (status != Status::converged)
     return finish(TerminationType::failed, "The starting point is no solution that a branch can be followed from.");
   emit(current, 0, BranchEvent::none, -1);
 
-  Point before;
-  bool hasBefore = false;
+  std::vector<Point> history = {current};
   double step = options_.initialStep;
   while (static_cast<int>(report.iterations.size()) < options_.maximumPoints) {
-    const double rate = std::abs(current.tangent[n]) * options_.parameterScale;
+    reuseRadius_ = 0.02 * step;
+    const double rate = std::abs(history.back().tangent[n]) * options_.parameterScale;
     step = std::min({step, options_.maximumStep, options_.maximumParameterStep / std::max(rate, 1e-300)});
     Point next;
-    double angle = 0;
+    double growth = 1;
     std::vector<Event> events;
-    status = advance(hasBefore ? &before : nullptr, current, step, next, angle);
-    const int factorizations = factorizations_;
-    if (status == Status::converged) status = locateEvents(current, next, events);
+    status = advance(history, step, next, growth);
+    if (status == Status::converged) status = locateEvents(history.back(), next, events);
     if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
     if (status == Status::failed) {
       step *= 0.5;
@@ -340,11 +345,9 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
       emit(event.point, step, event.kind, event.monitor);
       if (event.end) return finish(TerminationType::converged);
     }
-    const double easy = factorizations <= 3 ? 2.0 : 1.0;
-    step *= std::clamp(options_.targetAngle / std::max(angle, 1e-12), 0.5, easy);
-    before = current;
-    current = next;
-    hasBefore = true;
+    step *= std::clamp(growth, 0.3, 3.0);
+    history.push_back(next);
+    if (history.size() > predictionPoints) history.erase(history.begin());
   }
   return finish(TerminationType::iterationLimit, "The continuation reached its limit of points.");
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 #include "core/base/execution_context.hpp"
 #include "core/base/solver_report.hpp"
@@ -36,6 +37,12 @@ class ContinuationProblem {
   virtual double residualScale(double parameter) = 0;
   /// Evaluates ∂h/∂x at a point, for multiply() and factorize(), and returns ∂h/∂λ.
   virtual Eigen::VectorXd linearize(const Eigen::VectorXd& x, double parameter) = 0;
+  /// The same at a prediction that lies `step` along the branch beyond the solution `from` (before it, if negative).
+  /// Any matrix that is near ∂h/∂x of the solution predicted will do.
+  virtual Eigen::VectorXd linearizePrediction(const Eigen::VectorXd& x, double parameter, const BranchPoint& /*from*/,
+                                              double /*step*/) {
+    return linearize(x, parameter);
+  }
   /// ∂h/∂x, last linearised, times v.
   virtual Eigen::VectorXd multiply(const Eigen::VectorXd& v) = 0;
   /// Factorises ∂h/∂x as last linearised; false if it is singular.
@@ -52,7 +59,7 @@ struct ContinuationOptions {
   double orientation = 1;  ///< sign of dλ/ds at the start
   double stateScale = 1;   ///< the arc length is measured in (x / stateScale, λ / parameterScale)
   double parameterScale = 1;
-  double initialStep = 0.02;
+  double initialStep = 0.005;
   double minimumStep = 1e-6;
   double maximumStep = 1e100;
   double maximumParameterStep = 1e100;  ///< largest |Δλ| of a step
@@ -105,13 +112,14 @@ class ContinuationSolver {
     bool end;
   };
 
-  Status correct(Point& point, const Vector& normal);
-  Status findTangent(Point& point, const Vector& normal);
-  Status solveAt(Point& point, const Vector& predicted, const Vector& normal);
-  bool refactorize();
+  Status correct(Point& point, const Vector& normal, const Point* from, double step);
+  Status findTangent(Point& point, const Vector& normal, double tolerance);
+  Status solveAt(Point& point, const Vector& predicted, const Vector& normal, const Point* from, double step,
+                 double tangentTolerance);
+  bool refactorize(const Vector& y);
   Vector solveBordered(const Vector& f, double g, const Vector& normal);
 
-  Status advance(const Point* before, const Point& from, double step, Point& to, double& angle);
+  Status advance(const std::vector<Point>& history, double step, Point& to, double& growth);
   Status locateEvents(const Point& from, Point& to, std::vector<Event>& events);
   Status locate(const Point& from, const Point& to, const std::function<double(const Point&)>& function, Point& root);
   Status locateBound(const Point& from, const Point& to, double bound, Point& end);
@@ -122,7 +130,9 @@ class ContinuationSolver {
   ContinuationOptions options_;
   base::ExecutionContext* context_ = nullptr;
   bool factorized_ = false;
-  int factorizations_ = 0;      ///< that the last corrector took
+  Vector factorPoint_;          ///< where the factors belong
+  double reuseRadius_ = 0;      ///< factors serve for points this close
+  double contractionRate_ = 0;  ///< of corrections, per distance from factorPoint_, as last observed
   Vector parameterDerivative_;  ///< ∂h/∂λ where last linearised
   Vector parameterColumn_;      ///< (∂h/∂x)⁻¹ ∂h/∂λ, scaled, with the factors that there are
 };

@@ -73,8 +73,14 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
     x = trial.x;
     norm = trial.norm;
     report.iterations.push_back({iteration, norm / options.residualScale, length});
-    if (length == 1 && trial.correction.norm() <= options.stepTolerance * options.stepScale)
+    if (length == 1 && trial.correction.norm() <= options.stepTolerance * options.stepScale) {
+      const Eigen::VectorXd refined = x + trial.correction;
+      if (const double refinedNorm = system.residual(refined).norm(); refinedNorm < norm) {
+        x = refined;
+        report.iterations.back().residual = refinedNorm / options.residualScale;
+      }
       return finish(TerminationType::converged);
+    }
   }
 }
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/solvers/continuation_solver.hpp"
-#include "core/solvers/newton_solver.hpp"
+#include <optional>
 
 namespace pliant::solvers {
 
@@ -18,86 +16,27 @@ using mechanics::Vector;
 /// A direction that the stiffness resists by less than this fraction of its largest entry counts as free.
 constexpr double negligibleStiffness = 1e-14;
 
-/// ∇E(x) - f = (1 - λ) (∇E(x₀) - f) over the free coordinates: solved by x₀ at λ = 0 and by the equilibrium at λ = 1.
-class LoadedStructure final : public NonlinearSystem, public ContinuationProblem {
- public:
-  LoadedStructure(const Model& model, const ElasticAssembler& assembler, const Vector& start, const Vector& force)
-      : free_(model.dofs.freeCoordinates),
-        assembler_(assembler),
-        positions_(start),
-        force_(force(free_)),
-        imbalance_(assembler.gradient(start)(free_) - force_) {}
+/// Of the diagonal, relative to the stiffness's largest entry: below the softest bending, above everything.
+constexpr double smallestShift = 1e-12;
+constexpr double largestShift = 1e3;
 
-  Vector positions(const Vector& x) {
-    positions_(free_) = x;
-    return positions_;
-  }
-  double forceScale() const {
-    const double scale = std::max(force_.norm(), imbalance_.norm());
-    return scale > 0 ? scale : 1.0;
-  }
+double largestEntry(const SparseMatrix& matrix) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i) largest = std::max(largest, std::abs(matrix.valuePtr()[i]));
+  return largest;
+}
 
-  Vector residual(const Vector& x) override { return assembler_.gradient(positions(x))(free_) - force_; }
-  bool linearize(const Vector& x, Vector& r) override {
-    r = residual(x);
-    stiffness_ = assembler_.hessian(positions(x));
-    return factorization_.factorize(stiffness_);
-  }
-
-  Vector residual(const Vector& x, double parameter) override { return residual(x) - (1 - parameter) * imbalance_; }
-  double residualScale(double) override { return forceScale(); }
-  Vector linearize(const Vector& x, double) override {
-    stiffness_ = assembler_.hessian(positions(x));
-    return imbalance_;
-  }
-  Vector multiply(const Vector& v) override { return stiffness_ * v; }
-  bool factorize() override { return factorization_.factorize(stiffness_); }
-
-  Vector solve(const Vector& b) override { return factorization_.solve(b); }  // of both interfaces
-
- private:
-  const std::vector<int>& free_;
-  const ElasticAssembler& assembler_;
-  Vector positions_;
-  Vector force_;
-  Vector imbalance_;
-  SparseMatrix stiffness_;
-  math::SparseFactorization factorization_;
-};
-
-double modelSize(const Vector& positions) { return std::max(positions.cwiseAbs().maxCoeff(), 1e-300); }
-
-base::SolverReport rampLoad(LoadedStructure& structure, Vector& x, double size,
-                            const StaticEquilibriumOptions& options, base::ExecutionContext& context) {
-  ContinuationOptions ramp;
-  ramp.stateScale = size;
-  ramp.initialStep = 0.1;
-  ramp.targetAngle = 0.3;
-  ramp.maximumAngle = 1.0;
-  ramp.tolerance = options.tolerance;
-  ramp.stepTolerance = options.stepTolerance;
-  ramp.maximumPoints = options.maximumRampSteps;
-  // Only the end counts, so the range is open to the other side: the branch may turn back on its way.
-  ramp.lower = -1;
-  ContinuationSolver solver(structure, ramp);
-  BranchPoint last;
-  base::SolverReport report =
-      solver.trace(x, 0, context, [&](const BranchPoint& point, BranchEvent, int) { last = point; });
-  if (report.converged() && last.parameter < 1) {
-    report.termination = base::TerminationType::failed;
-    report.message = "The load could not be ramped up.";
-  }
-  x = last.x;
-  return report;
+SparseMatrix shifted(const SparseMatrix& matrix, double shift) {
+  SparseMatrix result = matrix;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) result.coeffRef(i, i) += shift;
+  return result;
 }
 
 }  // namespace
 
 std::string describeMissingStiffness(const Model& model, const ElasticAssembler& assembler, const Vector& positions) {
   const SparseMatrix stiffness = assembler.hessian(positions);
-  double largest = 0;
-  for (Eigen::Index i = 0; i < stiffness.nonZeros(); ++i)
-    largest = std::max(largest, std::abs(stiffness.valuePtr()[i]));
+  const double largest = largestEntry(stiffness);
   const int count = model.dofs.freeCount();
   int loose = 0;
   Vector softest = Vector::Zero(count);
@@ -108,15 +47,13 @@ std::string describeMissingStiffness(const Model& model, const ElasticAssembler&
       ++loose;
     }
   if (loose == 0) {
-    // Inverse iteration; the shift keeps the factors finite and leaves the softest direction in front.
-    SparseMatrix shifted = stiffness;
+    // Inverse iteration; the shift keeps the matrix regular and leaves directions without stiffness in front.
     math::SparseFactorization factorization;
-    for (int i = 0; i < count; ++i) shifted.coeffRef(i, i) += 0.1 * negligibleStiffness * largest;
+    double shift = 100 * negligibleStiffness;
+    while (!factorization.factorize(shifted(stiffness, shift * largest)))
+      if ((shift *= 10) > 1) return "The stiffness of the structure is not finite.";
     for (int i = 0; i < count; ++i) softest[i] = 1 + 0.5 * std::sin(1.0 + i);  // no symmetry that a mode could have
-    if (factorization.factorize(shifted))
-      for (int iteration = 0; iteration < 3; ++iteration)
-        softest = factorization.solve(softest.normalized()).col(0);
-    if (!softest.allFinite()) return "The stiffness of the structure is not finite.";
+    for (int iteration = 0; iteration < 4; ++iteration) softest = factorization.solve(softest.normalized()).col(0);
     softest.normalize();
     if ((stiffness * softest).norm() > negligibleStiffness * largest) return {};
   }
@@ -139,37 +76,72 @@ std::string describeMissingStiffness(const Model& model, const ElasticAssembler&
 StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssembler& assembler, const Vector& start,
                                          const Vector& force, const StaticEquilibriumOptions& options,
                                          base::ExecutionContext& context) {
-  LoadedStructure structure(model, assembler, start, force);
-  const double size = modelSize(start);
-  NewtonOptions newton;
-  newton.tolerance = options.tolerance;
-  newton.residualScale = structure.forceScale();
-  newton.stepTolerance = options.stepTolerance;
-  newton.stepScale = size;
-  newton.roundingTolerance = 10 * options.stepTolerance;
-  newton.maximumIterations = options.maximumIterations;
+  using base::TerminationType;
+  const auto& free = model.dofs.freeCoordinates;
+  const double size = std::max(start.cwiseAbs().maxCoeff(), 1e-300);
+  const auto potential = [&](const Vector& x) { return assembler.value(x) - force(free).dot(x(free)); };
+  const auto unbalanced = [&](const Vector& x) -> Vector { return (assembler.gradient(x) - force)(free); };
 
   StaticEquilibrium result;
-  const Vector rest = start(model.dofs.freeCoordinates);
-  Vector x = rest;
-  result.report = solveNewton(structure, x, newton, context);
-  if (!result.report.converged() && result.report.termination != base::TerminationType::cancelled) {
-    if (std::string missing = describeMissingStiffness(model, assembler, start); !missing.empty()) {
-      result.report.termination = base::TerminationType::failed;
-      result.report.message = std::move(missing);
-    } else {
-      x = rest;
-      result.report = rampLoad(structure, x, size, options, context);
-      if (result.report.converged() == false && result.report.termination != base::TerminationType::cancelled)
-        result.report.message = "No static equilibrium under the steady load was found.";
+  Vector& x = result.positions;
+  x = start;
+  Vector residual = unbalanced(x);
+  double energy = potential(x);
+  const double scale = std::max({force(free).norm(), residual.norm(), 1e-300});
+  double shift = 0;  // relative to the stiffness's largest entry
+  bool moved = true;
+  SparseMatrix stiffness;
+  double largest = 0;
+  math::SparseFactorization factorization;
+  result.report.iterations.push_back({0, residual.norm() / scale, 0});
+
+  const auto iterate = [&](int iteration) -> std::optional<TerminationType> {
+    if (!std::isfinite(energy)) return TerminationType::failed;
+    if (residual.norm() <= options.tolerance * scale) return TerminationType::converged;
+    if (context.cancelRequested()) return TerminationType::cancelled;
+    if (moved) {
+      stiffness = assembler.hessian(x);
+      largest = largestEntry(stiffness);
     }
-  }
-  result.positions = structure.positions(x);
-  if (result.report.converged()) {
-    if (std::string missing = describeMissingStiffness(model, assembler, result.positions); !missing.empty()) {
-      result.report.termination = base::TerminationType::failed;
-      result.report.message = std::move(missing);
+    // What rounding of the positions makes of the elastic forces.
+    if (residual.norm() <= 1e-15 * largest * size * std::sqrt(static_cast<double>(free.size())))
+      return TerminationType::converged;
+    moved = false;
+    Vector step;
+    if (factorization.factorize(shift > 0 ? shifted(stiffness, shift * largest) : stiffness))
+      step = -factorization.solve(residual).col(0);
+    if (step.size() > 0 && step.dot(residual) < 0) {
+      Vector trial = x;
+      trial(free) += step;
+      const Vector trialResidual = unbalanced(trial);
+      const double trialEnergy = potential(trial);
+      const bool tiny = step.norm() <= options.stepTolerance * size;
+      // Near the end the energy's decrease drowns in rounding, and the force's does not.
+      if (trialEnergy < energy || (shift == 0 && trialResidual.norm() < residual.norm())) {
+        x = trial;
+        residual = trialResidual;
+        energy = trialEnergy;
+        moved = true;
+        result.report.iterations.push_back({iteration, residual.norm() / scale, 1});
+      }
+      if (tiny && shift == 0) return TerminationType::converged;
     }
+    shift = moved ? (shift > smallestShift ? 0.1 * shift : 0) : std::max(10 * shift, smallestShift);
+    if (shift > largestShift) return TerminationType::failed;
+    return std::nullopt;
+  };
+
+  std::optional<TerminationType> end;
+  for (int iteration = 1; !end; ++iteration)
+    end = iteration > options.maximumIterations ? TerminationType::iterationLimit : iterate(iteration);
+  result.report.termination = *end;
+  if (*end == TerminationType::cancelled) {
+    result.report.message = "The search for the static equilibrium was cancelled.";
+  } else if (std::string missing = describeMissingStiffness(model, assembler, x); !missing.empty()) {
+    result.report.termination = TerminationType::failed;
+    result.report.message = std::move(missing);
+  } else if (*end != TerminationType::converged) {
+    result.report.message = "No static equilibrium under the steady load was found.";
   }
   return result;
 }
