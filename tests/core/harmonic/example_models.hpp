@@ -21,15 +21,12 @@ inline Vector vector2(double x, double y) { return Eigen::Vector2d(x, y); }
 inline Vector vector3(double x, double y, double z) { return Eigen::Vector3d(x, y, z); }
 
 /// amplitude sin τ.
-inline mechanics::PeriodicSignal sine(double amplitude) {
-  return {{{1, amplitude, -0.5 * std::numbers::pi}}};
-}
+inline mechanics::PeriodicSignal sine(double amplitude) { return {{{1, amplitude, -0.5 * std::numbers::pi}}}; }
 inline mechanics::PeriodicSignal cosine(double amplitude) { return {{{1, amplitude, 0}}}; }
 
 inline void addPointMass(Model& model, const std::string& name, std::vector<int> nodes, double mass) {
   model.pointMasses.push_back({name, std::move(nodes), mass, 0, 10 * mass});
-  model.parameters.push_back(
-      mechanics::makePointMassParameter(static_cast<int>(model.pointMasses.size()) - 1, name));
+  model.parameters.push_back(mechanics::makePointMassParameter(static_cast<int>(model.pointMasses.size()) - 1, name));
 }
 
 /// x'' + 2 ζ x' + x + γ x³ = P cos τ, along x of one node.

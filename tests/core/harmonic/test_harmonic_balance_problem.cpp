@@ -9,7 +9,8 @@ using harmonic::HarmonicBalanceProblem;
 
 namespace {
 
-/// Everything at once: membranes, hinges, springs, point masses, gravity, forces, a rotating and a shifting drive, locks.
+/// Everything at once: membranes, hinges, springs, point masses, gravity, forces, a rotating and a shifting drive,
+/// locks.
 std::shared_ptr<const Model> everything(mechanics::MassMatrix mass) {
   const StripOptions options{4, 2, 1e5, 2e-3, mass, 2e-3, true};
   const geometry::SurfaceMesh mesh = stripMesh(options);
@@ -21,11 +22,10 @@ std::shared_ptr<const Model> everything(mechanics::MassMatrix mass) {
   model->gravity = vector3(0.3, -0.2, -9.81);
   model->massDamping = 0.7;
   model->stiffnessDamping = 3e-3;
-  model->energies.push_back(
-      mechanics::makeAnchoredSpring(3, last, vector3(0.1, 0.05, 0.08), 0.05, {{20, 30, 4000}}));
+  model->energies.push_back(mechanics::makeAnchoredSpring(3, last, vector3(0.1, 0.05, 0.08), 0.05, {{20, 30, 4000}}));
   model->energies.push_back(mechanics::makeSpring(3, last, last - 5, 0.02, {{5, 10}}));
-  model->drives = {mechanics::makeRotation({0, 1}, vector3(0, 0, 0), Eigen::Vector3d(0.1, 1, 0.2),
-                                           {{{1, 0.6, -1.0}, {2, 0.1, 0.3}}}),
+  model->drives = {mechanics::makeRotation(
+                       {0, 1}, vector3(0, 0, 0), Eigen::Vector3d(0.1, 1, 0.2), {{{1, 0.6, -1.0}, {2, 0.1, 0.3}}}),
                    mechanics::makeTranslation({2}, vector3(0.1, 0.2, 1), {{{0, 1e-3, 0}, {1, 5e-3, 0.4}}})};
   model->forces = {{"force", {last}, vector3(0, 0.3, 1), {{{1, 2e-2, 0.2}, {3, 1e-2, 0.5}, {0, 5e-3, 0}}}}};
   model->lockedCoordinates[3 * (last - 2) + 1] = 1;
@@ -95,15 +95,17 @@ void TestHarmonicBalanceProblem::derivatives() {
   const double frequencyStep = 1e-4;
   const Vector frequencyDifference =
       (problem.residual(z, omega + frequencyStep) - problem.residual(z, omega - frequencyStep)) / (2 * frequencyStep);
-  if (harmonics > 0) QVERIFY(relativeDifference(frequencyDerivative, frequencyDifference) < 1e-8);
-  else QVERIFY(frequencyDerivative.isZero(0));
+  if (harmonics > 0)
+    QVERIFY(relativeDifference(frequencyDerivative, frequencyDifference) < 1e-8);
+  else
+    QVERIFY(frequencyDerivative.isZero(0));
 
   for (const auto& parameter : model->parameters) {
     const double value = parameter->value(*model);
     const double change = 0.1 * value;  // h is linear in a mass
     const auto changed = [&](double by) {
-      return HarmonicBalanceProblem(std::make_shared<Model>(parameter->withValue(*model, value + by)),
-                                    {harmonics, samples})
+      return HarmonicBalanceProblem(
+                 std::make_shared<Model>(parameter->withValue(*model, value + by)), {harmonics, samples})
           .residual(z, omega);
     };
     const Vector difference = (changed(change) - changed(-change)) / (2 * change);
@@ -157,7 +159,8 @@ void TestHarmonicBalanceProblem::pathLengthGradient() {
     forward[i] += step;
     backward[i] -= step;
     difference[i] = (harmonic::amplitude(problem, forward, node).pathLength -
-                     harmonic::amplitude(problem, backward, node).pathLength) / (2 * step);
+                     harmonic::amplitude(problem, backward, node).pathLength) /
+                    (2 * step);
   }
   QVERIFY(relativeDifference(gradient, difference) < 1e-7);
 }
