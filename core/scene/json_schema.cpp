@@ -18,8 +18,9 @@ Json numberSchema(const ParameterSpec& spec) {
   if (std::isfinite(spec.maximum)) number["maximum"] = spec.maximum;
   if (spec.dimension == base::Dimension{}) return number;
   const std::string sign = spec.minimum >= 0 ? "[+]?" : "[+-]?";
-  const Json text{{"type", "string"},
-                  {"pattern", "^ *" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?(( *[^ .0-9+-]| +1/).*)?$"}};
+  const Json text{
+      {"type", "string"},
+      {"pattern", "^ *" + sign + "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?(( *[^ .0-9+-]| +1/).*)?$"}};
   return Json{{"anyOf", Json::array({number, text})}};
 }
 

@@ -7,8 +7,8 @@
 namespace pliant::screenshots {
 namespace {
 
-constexpr int tolerance = 2;      // of 255
-constexpr int enlargement = 20;   // of differences in the picture of them
+constexpr int tolerance = 2;     // of 255
+constexpr int enlargement = 20;  // of differences in the picture of them
 
 int difference(QRgb a, QRgb b) {
   return std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)), std::abs(qBlue(a) - qBlue(b))});
@@ -31,8 +31,11 @@ QString compareWithBaseline(const QImage& picture, const QString& name, int allo
   const QImage baseline = QImage(baselineFile).convertToFormat(QImage::Format_RGB32);
   if (baseline.isNull()) return fail("there is no baseline " + baselineFile);
   if (baseline.size() != actual.size())
-    return fail(QString("the picture is %1 x %2 pixels, its baseline %3 x %4").arg(actual.width()).arg(actual.height())
-                    .arg(baseline.width()).arg(baseline.height()));
+    return fail(QString("the picture is %1 x %2 pixels, its baseline %3 x %4")
+                    .arg(actual.width())
+                    .arg(actual.height())
+                    .arg(baseline.width())
+                    .arg(baseline.height()));
   QImage differences(actual.size(), QImage::Format_Grayscale8);
   int count = 0, largest = 0;
   for (int y = 0; y < actual.height(); ++y)
@@ -45,7 +48,10 @@ QString compareWithBaseline(const QImage& picture, const QString& name, int allo
   if (count <= allowedPixels) return {};
   QDir().mkpath(QStringLiteral(PLIANT_BINARY_DIR "/screenshots"));
   differences.save(kept + ".difference.png");
-  return fail(QString("%1 pixels differ from the baseline (%2 may), by up to %3 of 255").arg(count).arg(allowedPixels).arg(largest));
+  return fail(QString("%1 pixels differ from the baseline (%2 may), by up to %3 of 255")
+                  .arg(count)
+                  .arg(allowedPixels)
+                  .arg(largest));
 }
 
 }  // namespace pliant::screenshots

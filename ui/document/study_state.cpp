@@ -9,8 +9,8 @@ namespace {
 
 using scene::Json;
 
-constexpr std::array<std::string_view, 5> keysThatDoNotMatter = {"schema_version", "title", "description", "studies",
-                                                                 "expected"};
+constexpr std::array<std::string_view, 5> keysThatDoNotMatter = {
+    "schema_version", "title", "description", "studies", "expected"};
 
 const Json* findStudy(const scene::Scene& scene, const std::string& name) {
   const Json& all = scene.normalized();

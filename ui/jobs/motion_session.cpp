@@ -164,8 +164,8 @@ void MotionSession::computeSensitivity() {
   Job job;
   job.topic = sensitivityTopic;
   job.title = tr("Sensitivity to parameters");
-  job.work = [this, problem = shown_->problem, motion = shown_->motion](base::ExecutionContext& context,
-                                                                        const Publish&) -> Delivery {
+  job.work = [this, problem = shown_->problem, motion = shown_->motion](
+                 base::ExecutionContext& context, const Publish&) -> Delivery {
     if (context.cancelRequested()) return {};
     const HarmonicBalanceProblem own(*problem);
     const auto sensitivity = std::make_shared<const ResponseSensitivity>(own, motion);
@@ -216,8 +216,8 @@ void MotionSession::update() {
   job.topic = motionTopic;
   job.title = tr("Update of the motion at %1 rad/s").arg(shown_->motion.omega, 0, 'g', 4);
   job.work = [this, model, scene = document_.scene(), basis = shown_->problem->basis(), omega = shown_->motion.omega,
-              start = prediction_.value_or(shown_->motion.z), predicted](base::ExecutionContext& context,
-                                                                         const Publish&) -> Delivery {
+              start = prediction_.value_or(shown_->motion.z),
+              predicted](base::ExecutionContext& context, const Publish&) -> Delivery {
     HarmonicBalanceProblem problem(model, basis);
     const Vector from = start.size() == problem.size() ? start : Vector();
     PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, from);

@@ -24,7 +24,7 @@ double amplitudeOf(const harmonic::HarmonicBalanceProblem& problem, const harmon
 struct ShownMotion {
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
   harmonic::PeriodicMotion motion;
-  scene::Scene scene;  ///< that it was solved for
+  scene::Scene scene;                                                ///< that it was solved for
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< null as long as it is computed
   std::string study;  ///< whose result it is; empty if it was solved by itself
   int point = -1;     ///< on that study's curve
@@ -36,9 +36,9 @@ struct ParameterEffect {
   double slope = 0;  ///< d(amplitude) / d(parameter), SI
 };
 
-/// One motion on show: chosen from a result or solved for a frequency, with its first-order dependence on the parameters
-/// computed behind it, and the motion predicted for the parameters as they are set now. `update` solves anew, from the
-/// prediction, and says how good that was. Solves run as jobs of `quick`; studies run beside them.
+/// One motion on show: chosen from a result or solved for a frequency, with its first-order dependence on the
+/// parameters computed behind it, and the motion predicted for the parameters as they are set now. `update` solves
+/// anew, from the prediction, and says how good that was. Solves run as jobs of `quick`; studies run beside them.
 class MotionSession final : public QObject {
   Q_OBJECT
 
@@ -65,7 +65,8 @@ class MotionSession final : public QObject {
   /// Runs studies and shows what they find as soon as there is something.
   void run(const std::vector<std::string>& names);
   void runAll();
-  /// Solves the shown motion anew with the scene as it is, starting from the prediction, and runs outdated studies again.
+  /// Solves the shown motion anew with the scene as it is, starting from the prediction, and runs outdated studies
+  /// again.
   void update();
   /// Ends everything that runs; what has been found stays.
   void cancel();

@@ -10,9 +10,9 @@ namespace pliant::render {
 
 Color viridis(double fraction) {
   // Twenty equidistant colours of viridis (van der Walt and Smith 2015, CC0), linear in between.
-  static constexpr std::array<unsigned, 20> anchors{0x440154, 0x481568, 0x482677, 0x453781, 0x3f4788, 0x39558c, 0x32648e,
-                                                    0x2d718e, 0x287d8e, 0x238a8d, 0x1f968b, 0x20a386, 0x29af7f, 0x3cbc75,
-                                                    0x56c667, 0x74d055, 0x94d840, 0xb8de29, 0xdce318, 0xfde725};
+  static constexpr std::array<unsigned, 20> anchors{
+      0x440154, 0x481568, 0x482677, 0x453781, 0x3f4788, 0x39558c, 0x32648e, 0x2d718e, 0x287d8e, 0x238a8d,
+      0x1f968b, 0x20a386, 0x29af7f, 0x3cbc75, 0x56c667, 0x74d055, 0x94d840, 0xb8de29, 0xdce318, 0xfde725};
   const double place = std::clamp(fraction, 0.0, 1.0) * (anchors.size() - 1);
   const std::size_t below = std::min<std::size_t>(static_cast<std::size_t>(place), anchors.size() - 2);
   Color color;

@@ -10,7 +10,8 @@ namespace {
 class EglContext final : public OffscreenContext {
  public:
   EglContext() {
-    const auto extensions = library_.function<const char*(EGLDisplay, EGLint)>("eglQueryString")(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const auto extensions =
+        library_.function<const char*(EGLDisplay, EGLint)>("eglQueryString")(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!extensions || std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos)
       throw std::runtime_error("EGL has no surfaceless platform");
     display_ = library_.function<EGLDisplay(EGLenum, void*, const EGLAttrib*)>("eglGetPlatformDisplay")(
@@ -24,8 +25,9 @@ class EglContext final : public OffscreenContext {
     EGLint count = 0;
     library_.function<EGLBoolean(EGLDisplay, const EGLint*, EGLConfig*, EGLint, EGLint*)>("eglChooseConfig")(
         display_, wanted, &config, 1, &count);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context_ = library_.function<EGLContext(EGLDisplay, EGLConfig, EGLContext, const EGLint*)>("eglCreateContext")(
         display_, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     if (context_ == EGL_NO_CONTEXT) throw std::runtime_error("EGL makes no OpenGL 3.3 context");
@@ -69,7 +71,8 @@ std::unique_ptr<OffscreenContext> makeOffscreenContext() {
     try {
       return makeEglContext();
     } catch (const std::runtime_error& eglError) {
-      throw std::runtime_error(std::string("no way to draw without a display: ") + mesaError.what() + "; " + eglError.what());
+      throw std::runtime_error(std::string("no way to draw without a display: ") + mesaError.what() + "; " +
+                               eglError.what());
     }
   }
 }

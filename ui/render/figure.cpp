@@ -63,7 +63,8 @@ FigureLayout::FigureLayout(const mechanics::Model& model)
       springs.push_back({groundedNodes.back(), fixedEnd});
       fixedPoints.push_back(fixedEnd);
     }
-  for (const auto& drive : model.drives) drivenNodes.insert(drivenNodes.end(), drive->nodes().begin(), drive->nodes().end());
+  for (const auto& drive : model.drives)
+    drivenNodes.insert(drivenNodes.end(), drive->nodes().begin(), drive->nodes().end());
   for (const mechanics::PointMass& mass : model.pointMasses)
     massNodes.insert(massNodes.end(), mass.nodes.begin(), mass.nodes.end());
   std::sort(massNodes.begin(), massNodes.end());
@@ -95,7 +96,8 @@ std::vector<double> FigureLayout::massRadii(const mechanics::Model& model) const
   return radii;
 }
 
-Figure::Figure(Kind kind) : kind_(kind), outline_(kind == Kind::ghost ? 2.0 : 1.5), springs_(kind == Kind::ghost ? 1.5 : 2.0) {
+Figure::Figure(Kind kind)
+    : kind_(kind), outline_(kind == Kind::ghost ? 2.0 : 1.5), springs_(kind == Kind::ghost ? 1.5 : 2.0) {
   surface_.setPoints(points_);
   outline_.setPoints(points_);
   springs_.setPoints(points_);

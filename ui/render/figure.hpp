@@ -22,15 +22,15 @@ struct FigureLayout {
   std::vector<double> massRadii(const mechanics::Model& model) const;
 
   int dimension = 3;
-  Points rest;                                  ///< of the nodes
-  double size = 1;                              ///< extent of the model [m]; markers are measured by it
+  Points rest;      ///< of the nodes
+  double size = 1;  ///< extent of the model [m]; markers are measured by it
   std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> outline;      ///< edges of one triangle
-  std::vector<std::array<int, 2>> springs;      ///< columns of pose()
+  std::vector<std::array<int, 2>> outline;  ///< edges of one triangle
+  std::vector<std::array<int, 2>> springs;  ///< columns of pose()
   std::vector<int> groundedNodes;
   std::vector<int> massNodes;
   std::vector<int> drivenNodes;
-  std::vector<int> fixedPoints;                 ///< columns of pose(): locked nodes and fixed ends of springs
+  std::vector<int> fixedPoints;  ///< columns of pose(): locked nodes and fixed ends of springs
   std::vector<int> probeNodes;
 
  private:

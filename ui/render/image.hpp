@@ -13,8 +13,8 @@ struct Image {
   std::vector<std::uint8_t> pixels;  ///< 4 * width * height
 };
 
-/// Writes a PNG file atomically (a temporary file beside it that is renamed). Throws base::InputError if the file cannot be
-/// written.
+/// Writes a PNG file atomically (a temporary file beside it that is renamed). Throws base::InputError if the file
+/// cannot be written.
 void writePng(const Image& image, const std::filesystem::path& file);
 
 }  // namespace pliant::render

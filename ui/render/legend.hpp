@@ -15,8 +15,8 @@
 
 namespace pliant::render {
 
-/// The scalar bar at the right edge: a title, a strip of colours, and round numbers beside it. Measured in pixels, so it
-/// keeps its size and stays sharp.
+/// The scalar bar at the right edge: a title, a strip of colours, and round numbers beside it. Measured in pixels, so
+/// it keeps its size and stays sharp.
 class Legend {
  public:
   static constexpr double width = 112;  ///< device-independent pixels that it takes from the right edge

@@ -26,12 +26,12 @@ struct Libraries {
   DynamicLibrary mesa{"libOSMesa.so.8"};
   DynamicLibrary dispatch{"libGLdispatch.so.0"};
 
-  void* (*createContext)(const int*, void*) =
-      mesa.function<void*(const int*, void*)>("OSMesaCreateContextAttribs");
+  void* (*createContext)(const int*, void*) = mesa.function<void*(const int*, void*)>("OSMesaCreateContextAttribs");
   void (*destroyContext)(void*) = mesa.function<void(void*)>("OSMesaDestroyContext");
   unsigned char (*mesaMakeCurrent)(void*, void*, unsigned, int, int) =
       mesa.function<unsigned char(void*, void*, unsigned, int, int)>("OSMesaMakeCurrent");
-  OsmesaProcedure (*procedureAddress)(const char*) = mesa.function<OsmesaProcedure(const char*)>("OSMesaGetProcAddress");
+  OsmesaProcedure (*procedureAddress)(const char*) =
+      mesa.function<OsmesaProcedure(const char*)>("OSMesaGetProcAddress");
 
   unsigned char (*dispatchMakeCurrent)(DispatchThreadState*, void*, int, const void*) =
       dispatch.function<unsigned char(DispatchThreadState*, void*, int, const void*)>("__glDispatchMakeCurrent");
@@ -65,8 +65,19 @@ struct Libraries {
 class MesaContext final : public OffscreenContext {
  public:
   MesaContext() : libraries_(Libraries::instance()) {
-    const int attributes[] = {osmesaFormat,       osmesaRgba, osmesaDepthBits,    24, osmesaStencilBits, 8, osmesaProfile,
-                              osmesaCoreProfile,  osmesaMajorVersion, 3, osmesaMinorVersion, 3, 0};
+    const int attributes[] = {osmesaFormat,
+                              osmesaRgba,
+                              osmesaDepthBits,
+                              24,
+                              osmesaStencilBits,
+                              8,
+                              osmesaProfile,
+                              osmesaCoreProfile,
+                              osmesaMajorVersion,
+                              3,
+                              osmesaMinorVersion,
+                              3,
+                              0};
     context_ = libraries_.createContext(attributes, nullptr);
     if (!context_) throw std::runtime_error("libOSMesa.so.8 makes no OpenGL 3.3 context");
   }

@@ -32,7 +32,8 @@ using mechanics::Matrix;
 using mechanics::Vector;
 
 /// The closed paths of some nodes, one column a place.
-std::vector<Points> nodePaths(const HarmonicBalanceProblem& problem, const Matrix& trajectories, const std::vector<int>& nodes) {
+std::vector<Points> nodePaths(const HarmonicBalanceProblem& problem, const Matrix& trajectories,
+                              const std::vector<int>& nodes) {
   const math::HarmonicBasis& basis = problem.basis();
   // The samples' trigonometric interpolant, so that paths are smooth however few samples the solver takes.
   Matrix interpolation(curveSamples, basis.size());
@@ -194,8 +195,8 @@ struct MotionView::Parts {
     if (problem) paths.setClosedCurves(nodePaths(*problem, trajectories, tracedNodes()), 0);
     predictedPaths.actor()->SetVisibility(problem && prediction);
     if (problem && prediction)
-      predictedPaths.setClosedCurves(nodePaths(*problem, problem->trajectories(*prediction), tracedNodes()),
-                                     dashLength * layout.size);
+      predictedPaths.setClosedCurves(
+          nodePaths(*problem, problem->trajectories(*prediction), tracedNodes()), dashLength * layout.size);
   }
 
   void showPose() {

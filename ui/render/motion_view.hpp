@@ -15,8 +15,8 @@ namespace pliant::render {
 enum class AxisView { front, back, right, left, top, bottom, isometric };
 
 /// What is seen of one model: its surface coloured by stretch, springs, masses, driven nodes, trajectories, and over it
-/// the predicted motion as a hatched ghost. It only draws; motions come from outside. Models of one or two dimensions lie
-/// in the plane z = 0. Belongs to the thread that owns its window.
+/// the predicted motion as a hatched ghost. It only draws; motions come from outside. Models of one or two dimensions
+/// lie in the plane z = 0. Belongs to the thread that owns its window.
 class MotionView {
  public:
   MotionView();
@@ -32,8 +32,8 @@ class MotionView {
   /// The solved motion, coefficients `z` of `problem`, whose model has the nodes of the model shown.
   void setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, mechanics::Vector z);
   void clearMotion();
-  /// The predicted motion, coefficients of the problem given to setMotion (ignored if there is none). `changedModel`, if
-  /// given, tells the predicted point masses.
+  /// The predicted motion, coefficients of the problem given to setMotion (ignored if there is none). `changedModel`,
+  /// if given, tells the predicted point masses.
   void setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel = nullptr);
   void clearPrediction();
   /// Greys the solved motion: inputs have changed since.
@@ -52,14 +52,15 @@ class MotionView {
   void setFieldVisible(bool visible);
   /// Pixels per device-independent pixel: scales text, lines and markers.
   void setPixelRatio(double ratio);
-  /// Smooth edges (8 samples a pixel): cheap on a graphics processor, but six times the cost of a frame in software, where
-  /// it is for stills. On at first.
+  /// Smooth edges (8 samples a pixel): cheap on a graphics processor, but six times the cost of a frame in software,
+  /// where it is for stills. On at first.
   void setFineQuality(bool fine);
 
   /// Looks at everything the motion reaches.
   void fit();
   void setAxisView(AxisView view);
-  /// Turns about the middle of the view; fractions of the window's height (a whole height: 180°), x to the right, y down.
+  /// Turns about the middle of the view; fractions of the window's height (a whole height: 180°), x to the right, y
+  /// down.
   void orbit(double dx, double dy);
   /// Moves the scene with the pointer; physical pixels.
   void pan(double dx, double dy);

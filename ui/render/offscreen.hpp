@@ -14,18 +14,17 @@ namespace pliant::render {
 
 /// How a still picture is made.
 struct PictureOptions {
-  int width = 1280;   ///< pixels
-  int height = 720;   ///< pixels
+  int width = 1280;  ///< pixels
+  int height = 720;  ///< pixels
   Theme theme = Theme::light;
   AxisView view = AxisView::isometric;
   std::string caption;  ///< the small label; empty: none
   std::optional<int> selectedNode;
 };
 
-/// Draws a model at `tau` [rad] of a periodic motion with coefficients `z` (the rest state if `problem` is null), without
-/// a display: through OSMesa, else through EGL without a surface.
-/// Throws base::InputError if the size is not positive or too large, and std::runtime_error with one sentence if this
-/// machine has neither library.
+/// Draws a model at `tau` [rad] of a periodic motion with coefficients `z` (the rest state if `problem` is null),
+/// without a display: through OSMesa, else through EGL without a surface. Throws base::InputError if the size is not
+/// positive or too large, and std::runtime_error with one sentence if this machine has neither library.
 Image renderToImage(const std::shared_ptr<const mechanics::Model>& model,
                     const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
                     double tau, const PictureOptions& options);

@@ -15,14 +15,14 @@ class OffscreenContext {
 
   virtual std::string_view name() const = 0;
   virtual bool isCurrent() const = 0;
-  /// Nothing to do if it is current already. Throws std::runtime_error if it cannot be made current, such as when a context
-  /// of somebody else (Qt's, say) is current on this thread.
+  /// Nothing to do if it is current already. Throws std::runtime_error if it cannot be made current, such as when a
+  /// context of somebody else (Qt's, say) is current on this thread.
   virtual void makeCurrent() = 0;
   virtual void doneCurrent() = 0;
 };
 
-/// Mesa's software renderer, made a vendor of libglvnd: VTK's and GLEW's ordinary OpenGL calls go to libOSMesa while the
-/// context is current. Throws std::runtime_error if a library is missing or libglvnd's interface is another one.
+/// Mesa's software renderer, made a vendor of libglvnd: VTK's and GLEW's ordinary OpenGL calls go to libOSMesa while
+/// the context is current. Throws std::runtime_error if a library is missing or libglvnd's interface is another one.
 std::unique_ptr<OffscreenContext> makeMesaContext();
 
 /// EGL without a surface. Throws std::runtime_error if it is not to be had.

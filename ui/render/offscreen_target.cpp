@@ -13,7 +13,9 @@ class OffscreenWindow final : public OpenGLWindow {
   static OffscreenWindow* New();
   vtkTypeMacro(OffscreenWindow, OpenGLWindow)
 
-  void setContext(OffscreenContext* context) { context_ = context; }
+      void setContext(OffscreenContext* context) {
+    context_ = context;
+  }
   bool IsCurrent() override { return context_ && context_->isCurrent(); }
   void MakeCurrent() override {
     if (context_) context_->makeCurrent();

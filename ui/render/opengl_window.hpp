@@ -11,9 +11,9 @@ class OpenGLWindow : public vtkGenericOpenGLRenderWindow {
  public:
   vtkTypeMacro(OpenGLWindow, vtkGenericOpenGLRenderWindow)
 
-  /// Debian's GLEW is built for GLX: under EGL and OSMesa it has loaded its functions when it complains that there is no GLX
-  /// display, which is therefore accepted.
-  void OpenGLInitContext() override;
+      /// Debian's GLEW is built for GLX: under EGL and OSMesa it has loaded its functions when it complains that there
+      /// is no GLX display, which is therefore accepted.
+      void OpenGLInitContext() override;
 
   bool IsCurrent() override = 0;
   void MakeCurrent() override = 0;

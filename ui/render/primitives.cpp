@@ -25,7 +25,8 @@ void makeFlat(vtkActor* actor) {
 /// Copies the chosen columns.
 void setPositions(vtkPoints* points, const Points& positions, const std::vector<int>& nodes) {
   points->SetNumberOfPoints(static_cast<vtkIdType>(nodes.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) points->SetPoint(static_cast<vtkIdType>(i), positions.col(nodes[i]).data());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    points->SetPoint(static_cast<vtkIdType>(i), positions.col(nodes[i]).data());
   points->Modified();
 }
 
@@ -45,7 +46,8 @@ void setHatched(vtkActor* actor, double period) {
   shader->ClearAllFragmentShaderReplacements();
   shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
                                        "//VTK::Light::Impl\n  if (mod(gl_FragCoord.x + gl_FragCoord.y, " +
-                                           std::to_string(period) + ") > " + std::to_string(0.3 * period) + ") discard;\n",
+                                           std::to_string(period) + ") > " + std::to_string(0.3 * period) +
+                                           ") discard;\n",
                                        false);
   actor->GetProperty()->LightingOff();
 }
@@ -136,7 +138,9 @@ void LinePrimitive::setClosedCurves(const std::vector<Points>& curves, double da
   data_->SetLines(cells);
 }
 
-void LinePrimitive::setPixelRatio(double ratio) { actor_->GetProperty()->SetLineWidth(static_cast<float>(width_ * ratio)); }
+void LinePrimitive::setPixelRatio(double ratio) {
+  actor_->GetProperty()->SetLineWidth(static_cast<float>(width_ * ratio));
+}
 
 MarkerPrimitive::MarkerPrimitive(Shape shape) {
   data_->SetPoints(points_);

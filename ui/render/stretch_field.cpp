@@ -14,7 +14,8 @@ Eigen::Matrix<double, 3, 2> edges(const Points& p, const std::array<int, 3>& t) 
 
 }  // namespace
 
-StretchField::StretchField(const Points& rest, const std::vector<std::array<int, 3>>& triangles) : triangles_(triangles) {
+StretchField::StretchField(const Points& rest, const std::vector<std::array<int, 3>>& triangles)
+    : triangles_(triangles) {
   for (const auto& triangle : triangles) {
     const Eigen::Matrix<double, 3, 2> e = edges(rest, triangle);
     const double length = e.col(0).norm();

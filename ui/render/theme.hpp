@@ -12,10 +12,10 @@ using Color = std::array<double, 3>;
 /// The colours of one theme. Categories are Okabe and Ito's, so that they are told apart by the colour-blind.
 struct Palette {
   Color background;
-  Color text;        ///< contrast with the background at least 4.5 : 1
-  Color edge;        ///< of triangles
-  Color outline;     ///< of surfaces
-  Color rest;        ///< a surface without a field
+  Color text;     ///< contrast with the background at least 4.5 : 1
+  Color edge;     ///< of triangles
+  Color outline;  ///< of surfaces
+  Color rest;     ///< a surface without a field
   Color spring;
   Color mass;
   Color driven;      ///< driven nodes

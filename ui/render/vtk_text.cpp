@@ -10,9 +10,9 @@ namespace {
 
 const std::string& fontFile() {
   static const std::string file = [] {
-    for (const char* candidate : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",     // Debian, Ubuntu
-                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",   // Fedora
-                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"}) {              // Arch
+    for (const char* candidate : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",    // Debian, Ubuntu
+                                  "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",  // Fedora
+                                  "/usr/share/fonts/TTF/DejaVuSans.ttf"}) {             // Arch
       std::error_code ignored;
       if (std::filesystem::exists(candidate, ignored)) return std::string(candidate);
     }

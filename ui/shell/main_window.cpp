@@ -179,8 +179,8 @@ void MainWindow::openFile(const QString& file, bool run) {
 }
 
 void MainWindow::chooseFile() {
-  const QString folder = document_.file().isEmpty() ? shippedFile(QStringLiteral("scenes"))
-                                                    : QFileInfo(document_.file()).absolutePath();
+  const QString folder =
+      document_.file().isEmpty() ? shippedFile(QStringLiteral("scenes")) : QFileInfo(document_.file()).absolutePath();
   const QString file = QFileDialog::getOpenFileName(this, tr("Open a scene"), folder, tr("Scenes (*.json)"));
   if (!file.isEmpty()) openFile(file);
 }

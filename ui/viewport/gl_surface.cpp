@@ -19,8 +19,12 @@ class WidgetWindow final : public render::OpenGLWindow {
   static WidgetWindow* New();
   vtkTypeMacro(WidgetWindow, render::OpenGLWindow)
 
-  void setWidget(QOpenGLWidget* widget) { widget_ = widget; }
-  bool IsCurrent() override { return widget_ && widget_->context() && QOpenGLContext::currentContext() == widget_->context(); }
+      void setWidget(QOpenGLWidget* widget) {
+    widget_ = widget;
+  }
+  bool IsCurrent() override {
+    return widget_ && widget_->context() && QOpenGLContext::currentContext() == widget_->context();
+  }
   /// Not if it is current already: that would bind Qt's framebuffer in the middle of a rendering.
   void MakeCurrent() override {
     if (widget_ && !IsCurrent()) widget_->makeCurrent();
@@ -31,7 +35,7 @@ class WidgetWindow final : public render::OpenGLWindow {
 };
 vtkStandardNewMacro(WidgetWindow)
 
-class GlWidget final : public QOpenGLWidget {
+    class GlWidget final : public QOpenGLWidget {
  public:
   explicit GlWidget(QWidget* parent) : QOpenGLWidget(parent) {
     setFormat(glSurfaceFormat());

@@ -13,7 +13,8 @@ namespace {
 
 bool openGLWorks() {
   static const QStringList without{"offscreen", "minimal", "vnc", "linuxfb"};
-  if (qEnvironmentVariable("PLIANT_SURFACE") == "software" || without.contains(QGuiApplication::platformName())) return false;
+  if (qEnvironmentVariable("PLIANT_SURFACE") == "software" || without.contains(QGuiApplication::platformName()))
+    return false;
   QOpenGLContext context;
   context.setFormat(glSurfaceFormat());
   QOffscreenSurface surface;

@@ -33,9 +33,9 @@ class RenderSurface {
   std::function<void(double pixelRatio)> onResize;
 };
 
-/// OpenGL where it works, else Mesa's software renderer: on platforms without OpenGL (offscreen, minimal, vnc, linuxfb),
-/// where no context can be made, or if the environment variable PLIANT_SURFACE is "software".
-/// Throws std::runtime_error if the software renderer is needed and missing.
+/// OpenGL where it works, else Mesa's software renderer: on platforms without OpenGL (offscreen, minimal, vnc,
+/// linuxfb), where no context can be made, or if the environment variable PLIANT_SURFACE is "software". Throws
+/// std::runtime_error if the software renderer is needed and missing.
 std::unique_ptr<RenderSurface> makeRenderSurface(QWidget* parent);
 
 }  // namespace pliant::viewport

@@ -14,11 +14,11 @@
 namespace pliant::viewport {
 namespace {
 
-constexpr double pickRadius = 12;        // device-independent pixels
-constexpr double wheelNotch = 120;       // eighths of a degree
+constexpr double pickRadius = 12;   // device-independent pixels
+constexpr double wheelNotch = 120;  // eighths of a degree
 constexpr double zoomPerNotch = 1.15;
-constexpr int frameInterval = 16;        // milliseconds
-constexpr int settleDelay = 250;          // milliseconds
+constexpr int frameInterval = 16;  // milliseconds
+constexpr int settleDelay = 250;   // milliseconds
 constexpr double fullTurn = 2.0 * std::numbers::pi;
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace pliant::viewport {
 class RenderSurface;
 
 /// The widget that shows a model and plays its motion. Left drag orbits, middle or shift drag pans, the wheel zooms
-/// towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0 isometrically, Space plays and pauses, a click picks a node.
-/// Colours follow the palette.
+/// towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0 isometrically, Space plays and pauses, a
+/// click picks a node. Colours follow the palette.
 class Viewport : public QWidget {
   Q_OBJECT
 
@@ -45,8 +45,8 @@ class Viewport : public QWidget {
   /// "OpenGL" or "software".
   QString surfaceName() const;
 
-  /// While things move, a processor that draws in software leaves edges rough, and smooths them a moment after. This does
-  /// it at once: for pictures.
+  /// While things move, a processor that draws in software leaves edges rough, and smooths them a moment after. This
+  /// does it at once: for pictures.
   void settle();
   /// The settled picture at the screen's resolution.
   QImage grabImage();

@@ -10,8 +10,8 @@
 
 namespace pliant::render {
 
-/// A fork-shaped shell with two point masses, whose base is driven and whose prongs wave: a motion made up by formula, so
-/// that pictures of it do not depend on a solver.
+/// A fork-shaped shell with two point masses, whose base is driven and whose prongs wave: a motion made up by formula,
+/// so that pictures of it do not depend on a solver.
 struct SwingingFork {
   std::shared_ptr<const mechanics::Model> model;
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
@@ -19,8 +19,12 @@ struct SwingingFork {
   int rightTip = 0;
 
   SwingingFork() {
-    const geometry::SurfaceMesh mesh = geometry::makeFork({.handleLength = 0.065, .prongLength = 0.07, .width = 0.01,
-                                                           .spacing = 0.02, .handleCells = 13, .prongCells = 14,
+    const geometry::SurfaceMesh mesh = geometry::makeFork({.handleLength = 0.065,
+                                                           .prongLength = 0.07,
+                                                           .width = 0.01,
+                                                           .spacing = 0.02,
+                                                           .handleCells = 13,
+                                                           .prongCells = 14,
                                                            .widthCells = 2});
     const auto middle = [&](const char* group) { return mesh.groups.at(group)[mesh.groups.at(group).size() / 2]; };
     leftTip = middle("left_tip");
@@ -34,8 +38,8 @@ struct SwingingFork {
     made.pointMasses = {{"left", {leftTip}, 0.002, 0, 0.02}, {"right", {rightTip}, 0.01, 0, 0.02}};
     made.probes = {{"left tip", leftTip}, {"right tip", rightTip}};
     made.parts = {{"fork", 0, static_cast<int>(mesh.points.cols()), mesh.triangles, {}}};
-    made.drives = {mechanics::makeTranslation(mesh.groups.at("base"), mechanics::Vector::Unit(3, 2),
-                                              {.terms = {{1, 0.004, 0.0}}})};
+    made.drives = {mechanics::makeTranslation(
+        mesh.groups.at("base"), mechanics::Vector::Unit(3, 2), {.terms = {{1, 0.004, 0.0}}})};
     made.finish();
     model = std::make_shared<const mechanics::Model>(std::move(made));
     problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(model, math::HarmonicBasis(3, 32));

@@ -154,9 +154,7 @@ void TestOffscreen::drawsModelsOfOneDimension() {
   z << 0.0, 0.7, 0.0;  // x = 0.7 sin τ
   PictureOptions options = smallPicture();
   options.view = AxisView::top;
-  const auto place = [&](double tau) {
-    return findBlob(renderToImage(model, problem, z, tau, options), isMassBlue);
-  };
+  const auto place = [&](double tau) { return findBlob(renderToImage(model, problem, z, tau, options), isMassBlue); };
   // The trajectory, a green line, is as long as the swing.
   const Blob path = findBlob(renderToImage(model, problem, z, 0, options),
                              [](int red, int green, int blue) { return green > red + 60 && green > blue + 15; });

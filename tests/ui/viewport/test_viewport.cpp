@@ -53,14 +53,13 @@ struct Stage {
   }
 
   void wheel(QPointF place, int notches) {
-    QWheelEvent event(place, viewport->mapToGlobal(place), {}, {0, 120 * notches}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QWheelEvent event(
+        place, viewport->mapToGlobal(place), {}, {0, 120 * notches}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
     QApplication::sendEvent(viewport, &event);
   }
 };
 
-bool near(const Blob& a, double x, double y, double tolerance) {
-  return std::hypot(a.x - x, a.y - y) <= tolerance;
-}
+bool near(const Blob& a, double x, double y, double tolerance) { return std::hypot(a.x - x, a.y - y) <= tolerance; }
 
 }  // namespace
 
