@@ -14,9 +14,35 @@ int difference(QRgb a, QRgb b) {
   return std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)), std::abs(qBlue(a) - qBlue(b))});
 }
 
+/// How far a pixel lies outside of what stands around the same place in another picture.
+int distanceToSurroundings(QRgb pixel, const QImage& other, int x, int y) {
+  int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
+  for (int v = std::max(0, y - 1); v <= std::min(other.height() - 1, y + 1); ++v)
+    for (int u = std::max(0, x - 1); u <= std::min(other.width() - 1, x + 1); ++u) {
+      const QRgb near = other.pixel(u, v);
+      const int channels[3] = {qRed(near), qGreen(near), qBlue(near)};
+      for (int c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], channels[c]);
+        high[c] = std::max(high[c], channels[c]);
+      }
+    }
+  const int channels[3] = {qRed(pixel), qGreen(pixel), qBlue(pixel)};
+  int distance = 0;
+  for (int c = 0; c < 3; ++c) distance = std::max({distance, low[c] - channels[c], channels[c] - high[c]});
+  return distance;
+}
+
+int difference(const QImage& actual, const QImage& baseline, int x, int y, Sharpness sharpness) {
+  const QRgb here = actual.pixel(x, y), there = baseline.pixel(x, y);
+  const int plain = difference(here, there);
+  if (sharpness == Sharpness::exact || plain <= tolerance) return plain;
+  // Both ways: what is gone counts as much as what has come.
+  return std::max(distanceToSurroundings(here, baseline, x, y), distanceToSurroundings(there, actual, x, y));
+}
+
 }  // namespace
 
-QString compareWithBaseline(const QImage& picture, const QString& name, int allowedPixels) {
+QString compareWithBaseline(const QImage& picture, const QString& name, int allowedPixels, Sharpness sharpness) {
   const QImage actual = picture.convertToFormat(QImage::Format_RGB32);
   const QString baselineFile = QStringLiteral(PLIANT_SOURCE_DIR "/tests/screenshots/baselines/") + name + ".png";
   if (qEnvironmentVariableIntValue("PLIANT_RECORD_SCREENSHOTS"))
@@ -40,7 +66,7 @@ QString compareWithBaseline(const QImage& picture, const QString& name, int allo
   int count = 0, largest = 0;
   for (int y = 0; y < actual.height(); ++y)
     for (int x = 0; x < actual.width(); ++x) {
-      const int here = difference(actual.pixel(x, y), baseline.pixel(x, y));
+      const int here = difference(actual, baseline, x, y, sharpness);
       differences.scanLine(y)[x] = static_cast<uchar>(std::min(255, enlargement * here));
       count += here > tolerance;
       largest = std::max(largest, here);

@@ -1,12 +1,22 @@
+#include <QApplication>
+#include <QDir>
 #include <QFile>
+#include <QFileInfo>
+#include <QFontDatabase>
+#include <QLabel>
 #include <QPalette>
 #include <QTest>
-#include <functional>
-#include <map>
+#include <cmath>
 #include <string>
 
 #include "tests/screenshots/screenshot.hpp"
 #include "tests/ui/render/swinging_fork.hpp"
+#include "ui/panels/parameter_panel.hpp"
+#include "ui/panels/parameter_row.hpp"
+#include "ui/panels/parameter_slider.hpp"
+#include "ui/panels/response_panel.hpp"
+#include "ui/shell/job_status.hpp"
+#include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::screenshots {
@@ -45,16 +55,90 @@ QImage drawViewport(const render::SwingingFork& fork, const std::string& view) {
   return QTest::qWaitForWindowExposed(&widget) ? widget.grabImage() : QImage();
 }
 
+constexpr int patience = 120'000;  ///< milliseconds; nothing here is timed
+
+/// A resonance curve in closed form, leaning over, with a shown motion and a prediction.
+std::unique_ptr<plots::ResponsePlot> makePlot(bool predicted) {
+  plots::ResponseCurve curve, other;
+  curve.name = "left tip";
+  other.name = "right tip";
+  for (int i = 0; i <= 200; ++i) {
+    const double s = -1 + 0.01 * i;
+    const double amplitude = 0.05 / (1 + 30 * s * s);
+    curve.omega.push_back(10 + 5 * s + 40 * amplitude);
+    curve.amplitude.push_back(amplitude);
+    curve.kinds.push_back(i == 100 ? harmonic::PointKind::peak : harmonic::PointKind::regular);
+    other.omega.push_back(curve.omega.back());
+    other.amplitude.push_back(0.6 * amplitude);
+  }
+  other.kinds.assign(other.omega.size(), harmonic::PointKind::regular);
+  auto plot = std::make_unique<plots::ResponsePlot>();
+  plot->resize(800, 280);
+  plot->setFrequencyRange(5, 15);
+  plot->setAmplitudeLabel(QStringLiteral("Path length"));
+  plot->setCurves(
+      {curve, other}, 0, predicted ? document::StudyStatus::stale : document::StudyStatus::solved, predicted, {});
+  plot->setShownMotion(plots::ResponsePlace{curve.omega[85], curve.amplitude[85]});
+  if (predicted) plot->setPrediction(plots::ResponsePlace{curve.omega[85], 1.3 * curve.amplitude[85]});
+  plot->show();
+  return plot;
+}
+
+/// A window on a scene whose studies are solved; the motion stands at τ.
+std::unique_ptr<shell::MainWindow> makeSolvedWindow(const char* scene, QSize size, double tau) {
+  auto window = std::make_unique<shell::MainWindow>(false);
+  window->resize(size);
+  window->show();
+  if (!QTest::qWaitForWindowExposed(window.get())) return nullptr;
+  window->openFile(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/") + scene, true);
+  const bool solved = QTest::qWaitFor(
+      [&] { return !window->document().isEmpty() && window->session().shown() && !window->session().isBusy(); },
+      patience);
+  if (!solved || !QTest::qWaitFor([&] { return !window->session().effects().empty(); }, patience)) return nullptr;
+  window->viewport().pause();
+  window->viewport().setTau(tau);
+  return window;
+}
+
+/// Moves the slider of the first mass and leaves it there, so that the prediction is seen.
+void dragFirstMass(shell::MainWindow& window, int pixels) {
+  panels::ParameterSlider* slider = window.parameters().row("/point_masses/0/mass")->slider();
+  const QPoint start = slider->handlePosition();
+  QTest::mousePress(slider, Qt::LeftButton, {}, start);
+  QTest::mouseMove(slider, start + QPoint(pixels / 2, 0));
+  QTest::mouseMove(slider, start + QPoint(pixels, 0));
+}
+
+QImage grab(shell::MainWindow& window) {
+  // The seconds that the solves took are nobody's picture.
+  for (QLabel* label : window.findChild<shell::JobStatus*>()->findChildren<QLabel*>()) label->setText("Ready");
+  window.viewport().settle();
+  QTest::qWait(200);
+  return window.grab().toImage();
+}
+
 }  // namespace
 
 class TestScreenshots : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
+  void initTestCase();
   void pictures_data();
   void pictures();
   void aChangedPictureIsNoticed();
+  void thePlot();
+  void theWholeWindow();
+  void thePictureOfTheReadme();
 };
+
+void TestScreenshots::initTestCase() {
+  QVERIFY(qEnvironmentVariableIsEmpty("DISPLAY"));
+  // Pinned, so that the picture does not depend on the desktop.
+  QVERIFY2(QFontDatabase::families().contains("DejaVu Sans"), "the package fonts-dejavu-core is not installed");
+  QApplication::setFont(QFont("DejaVu Sans", 9));
+  shell::applyTheme(shell::Theme::light);
+}
 
 void TestScreenshots::pictures_data() {
   QTest::addColumn<int>("index");
@@ -77,6 +161,52 @@ void TestScreenshots::aChangedPictureIsNoticed() {
   QVERIFY2(problem.contains("pixels differ"), qPrintable(problem));
   for (const char* kind : {".actual.png", ".difference.png"})
     QVERIFY(QFile::remove(QStringLiteral(PLIANT_BINARY_DIR "/screenshots/") + rows[0].baseline + kind));
+}
+
+void TestScreenshots::thePlot() {
+  constexpr int allowed = 60;
+  const auto picture = [](bool predicted) {
+    const auto plot = makePlot(predicted);
+    return QTest::qWaitForWindowExposed(plot.get()) ? plot->grab().toImage() : QImage();
+  };
+  const QString problem = compareWithBaseline(picture(true), "plot", allowed, Sharpness::smooth);
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+  if (qEnvironmentVariableIntValue("PLIANT_RECORD_SCREENSHOTS")) return;
+  // Without the prediction it is another picture.
+  const QString changed = compareWithBaseline(picture(false), "plot", allowed, Sharpness::smooth);
+  QVERIFY2(changed.contains("pixels differ"), qPrintable(changed));
+  for (const char* kind : {".actual.png", ".difference.png"})
+    QVERIFY(QFile::remove(QStringLiteral(PLIANT_BINARY_DIR "/screenshots/plot") + kind));
+}
+
+void TestScreenshots::theWholeWindow() {
+  constexpr int allowed = 400;
+  const auto window = makeSolvedWindow("membrane_strip.json", {1280, 800}, 0.9);
+  QVERIFY(window);
+  dragFirstMass(*window, 24);
+  QVERIFY(window->session().prediction().has_value());
+  const QString problem = compareWithBaseline(grab(*window), "window", allowed, Sharpness::smooth);
+  QVERIFY2(problem.isEmpty(), qPrintable(problem));
+  if (qEnvironmentVariableIntValue("PLIANT_RECORD_SCREENSHOTS")) return;
+  // A little more of the mass is another picture.
+  dragFirstMass(*window, 12);
+  const QString changed = compareWithBaseline(grab(*window), "window", allowed, Sharpness::smooth);
+  QVERIFY2(changed.contains("pixels differ"), qPrintable(changed));
+  for (const char* kind : {".actual.png", ".difference.png"})
+    QVERIFY(QFile::remove(QStringLiteral(PLIANT_BINARY_DIR "/screenshots/window") + kind));
+}
+
+/// docs/window.png, made anew with PLIANT_RECORD_README=1.
+void TestScreenshots::thePictureOfTheReadme() {
+  if (!qEnvironmentVariableIntValue("PLIANT_RECORD_README")) QSKIP("the picture of the README is not asked for");
+  const auto window = makeSolvedWindow("fork.json", {1440, 900}, 3.6);
+  QVERIFY(window);
+  dragFirstMass(*window, 20);
+  QVERIFY(window->session().prediction().has_value());
+  const QString file = QStringLiteral(PLIANT_SOURCE_DIR "/docs/window.png");
+  QVERIFY(QDir().mkpath(QFileInfo(file).absolutePath()));
+  QVERIFY(grab(*window).convertToFormat(QImage::Format_RGB32).save(file));
+  QVERIFY(QFileInfo(file).size() < 400'000);
 }
 
 }  // namespace pliant::screenshots

@@ -28,35 +28,69 @@ LoadedScene loadScene(const QString& file) {
   return {std::move(scene), std::move(model)};
 }
 
+namespace {
+
+/// The model of `after`, made from that of `before` by what changed at `pointer`. Throws base::InputError.
+std::shared_ptr<const mechanics::Model> changedModel(const LoadedScene& before, const scene::Scene& after,
+                                                     const std::string& pointer) {
+  for (const auto& parameter : before.model->parameters) {
+    if (parameter->pointer() != pointer) continue;
+    return std::make_shared<mechanics::Model>(
+        parameter->withValue(*before.model, valueIn(after, pointer).get<double>()));
+  }
+  return sameModel(after, before.scene) ? before.model : scene::buildModel(after);
+}
+
+/// The scene with `value` at `pointer`, on any thread. Throws base::InputError.
+LoadedScene edited(const LoadedScene& before, const std::string& pointer, const Json& value) {
+  scene::Scene after = before.scene.withValue(pointer, value);
+  auto model = changedModel(before, after, pointer);
+  return {std::move(after), std::move(model)};
+}
+
+}  // namespace
+
 /// Puts one scene in the place of another; both are values, so undo cannot fail.
 class Document::EditCommand final : public QUndoCommand {
  public:
-  EditCommand(Document& document, scene::Scene after, std::string pointer, const QString& text, int mergeId)
+  /// With `keepModels` both models are kept; without, the one is quickly made from the other.
+  EditCommand(Document& document, LoadedScene after, std::string pointer, const QString& text, int mergeId,
+              bool keepModels)
       : QUndoCommand(text),
         document_(document),
-        before_(document.scene()),
+        before_{document.scene(), keepModels ? document.model() : nullptr},
         after_(std::move(after)),
         pointer_(std::move(pointer)),
-        mergeId_(mergeId) {}
+        mergeId_(mergeId),
+        keepModels_(keepModels) {}
 
-  void undo() override { document_.replaceScene(before_, pointer_); }
-  void redo() override { document_.replaceScene(after_, pointer_); }
+  void undo() override { put(before_); }
+  void redo() override {
+    put(after_);
+    if (!keepModels_) after_.model.reset();
+  }
   int id() const override { return mergeId_; }
 
   bool mergeWith(const QUndoCommand* other) override {
     const auto* next = static_cast<const EditCommand*>(other);
-    if (next->pointer_ != pointer_) return false;
+    if (next->pointer_ != pointer_ || next->keepModels_ != keepModels_) return false;
     after_ = next->after_;
-    if (valueIn(before_, pointer_) == valueIn(after_, pointer_)) setObsolete(true);
+    if (valueIn(before_.scene, pointer_) == valueIn(after_.scene, pointer_)) setObsolete(true);
     return true;
   }
 
  private:
+  void put(const LoadedScene& to) {
+    const auto model = to.model ? to.model : changedModel({document_.scene(), document_.model()}, to.scene, pointer_);
+    document_.replaceScene(to.scene, model, pointer_);
+  }
+
   Document& document_;
-  scene::Scene before_;
-  scene::Scene after_;
+  LoadedScene before_;
+  LoadedScene after_;
   std::string pointer_;
   int mergeId_;
+  bool keepModels_;
 };
 
 Document::Document(QObject* parent) : QObject(parent) { undoStack_.setUndoLimit(500); }
@@ -69,6 +103,7 @@ QString Document::title() const {
 }
 
 void Document::adopt(LoadedScene loaded, const QString& file) {
+  cancelEdits();
   undoStack_.clear();
   studies_.clear();
   scene_ = std::move(loaded.scene);
@@ -106,13 +141,28 @@ bool Document::saveAs(const QString& file) {
   return true;
 }
 
+/// Whether no new model has to be built for an edit there: of a parameter the old one is changed, and what a study says
+/// is none of its business.
+bool Document::isQuick(const std::string& pointer) const {
+  const auto& parameters = model_->parameters;
+  return !mattersToModel(pointer) ||
+         std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p->pointer() == pointer; });
+}
+
 bool Document::setValue(const std::string& pointer, const Json& value, const QString& text, int mergeId) {
   if (isEmpty()) return false;
+  Edit edit{pointer, value, text, mergeId};
+  if (pending_.empty() && (!background_ || isQuick(pointer))) return apply(edit);
+  pending_.push_back(std::move(edit));
+  if (pending_.size() > 1) return true;
+  Q_EMIT editingChanged(true);
+  applyNext();
+  return true;
+}
+
+bool Document::apply(const Edit& edit) {
   try {
-    scene::Scene after = scene_->withValue(pointer, value);
-    if (after.json() == scene_->json()) return true;
-    rebuiltModel(after, pointer);  // refuses what cannot be built before anything changes
-    undoStack_.push(new EditCommand(*this, std::move(after), pointer, text, mergeId));
+    push(edited({*scene_, model_}, edit.pointer, edit.value), edit, !isQuick(edit.pointer));
     return true;
   } catch (const base::InputError& error) {
     raise(base::Severity::warning, sentenceOf(error));
@@ -120,13 +170,46 @@ bool Document::setValue(const std::string& pointer, const Json& value, const QSt
   }
 }
 
-QString Document::refusal(const std::string& pointer, const Json& value) const {
-  try {
-    scene_->withValue(pointer, value);
-    return {};
-  } catch (const base::InputError& error) {
-    return QString::fromStdString(error.problem());
+void Document::push(LoadedScene after, const Edit& edit, bool keepModels) {
+  if (after.scene.json() == scene_->json()) return;
+  undoStack_.push(new EditCommand(*this, std::move(after), edit.pointer, edit.text, edit.mergeId, keepModels));
+}
+
+void Document::applyNext() {
+  while (!pending_.empty()) {
+    const Edit edit = pending_.front();
+    if (!isQuick(edit.pointer)) {
+      background_([this, edit, ticket = ++ticket_, before = LoadedScene{*scene_, model_}]() -> std::function<void()> {
+        std::optional<LoadedScene> after;
+        QString sentence;
+        try {
+          after = edited(before, edit.pointer, edit.value);
+        } catch (const std::exception& error) {
+          sentence = QString::fromStdString(error.what());
+        }
+        return [this, edit, ticket, after, sentence] {
+          if (ticket != ticket_ || pending_.empty()) return;
+          pending_.pop_front();
+          if (after)
+            push(*after, edit, true);
+          else
+            raise(base::Severity::warning, sentence);
+          applyNext();
+        };
+      });
+      return;
+    }
+    pending_.pop_front();
+    apply(edit);
   }
+  Q_EMIT editingChanged(false);
+}
+
+void Document::cancelEdits() {
+  if (pending_.empty()) return;
+  ++ticket_;
+  pending_.clear();
+  Q_EMIT editingChanged(false);
 }
 
 Json Document::valueAt(const std::string& pointer) const { return isEmpty() ? Json() : valueIn(*scene_, pointer); }
@@ -143,22 +226,9 @@ const StudyState* Document::study(const std::string& name) const {
 
 StudyState* Document::findStudy(const std::string& name) { return const_cast<StudyState*>(study(name)); }
 
-std::shared_ptr<const mechanics::Model> Document::rebuiltModel(const scene::Scene& scene,
-                                                               const std::string& pointer) const {
-  for (const auto& parameter : model_->parameters) {
-    if (parameter->pointer() != pointer) continue;
-    return std::make_shared<mechanics::Model>(parameter->withValue(*model_, valueIn(scene, pointer).get<double>()));
-  }
-  return sameModel(scene, *scene_) ? model_ : scene::buildModel(scene);
-}
-
-void Document::replaceScene(const scene::Scene& scene, const std::string& pointer) {
-  try {
-    model_ = rebuiltModel(scene, pointer);
-  } catch (const base::InputError& error) {
-    // A mesh file beside the scene may have changed since this scene was last built.
-    raise(base::Severity::warning, sentenceOf(error));
-  }
+void Document::replaceScene(const scene::Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                            const std::string& pointer) {
+  model_ = std::move(model);
   scene_ = scene;
   refreshStudies();
   Q_EMIT sceneEdited(pointer);

@@ -3,6 +3,8 @@
 #include <QObject>
 #include <QString>
 #include <QUndoStack>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,11 +27,16 @@ struct LoadedScene {
 /// Reads a scene file and builds its model, on any thread. Throws base::InputError.
 LoadedScene loadScene(const QString& file);
 
+/// Work for another thread; what it returns is called on the UI thread.
+using BackgroundWork = std::function<std::function<void()>()>;
+
 /// The open scene, its edits, and the results of its studies. Lives on the UI thread.
 ///
 /// The scene is a value. An edit puts another value at one JSON pointer and is one undo step; the scene checks it, and
-/// what it refuses changes nothing and raises a message. Results remember the scene they were computed from: an edit
-/// makes them stale, and undoing it makes them fresh again.
+/// what it refuses changes nothing and raises a message. Scene and model always belong together: an edit that needs
+/// another model waits until that is built, in the background where `setBackground` says how, and later edits wait
+/// behind it. A design parameter or a study is edited at once. Results remember the scene they were computed from: an
+/// edit makes them stale, and undoing it makes them fresh again.
 class Document final : public QObject {
   Q_OBJECT
 
@@ -55,11 +62,18 @@ class Document final : public QObject {
   /// Writes the scene to `file` and takes that as its file. Raises a message and returns false if it cannot be written.
   bool saveAs(const QString& file);
 
+  /// How models are built beside the UI thread; without it they are built where the edit is made.
+  void setBackground(std::function<void(BackgroundWork)> run) { background_ = std::move(run); }
+
   /// Puts `value` at `pointer` as one undo step described by `text`. Successive edits of the same pointer with the same
-  /// `mergeId` (not -1) become one step. Returns false, having raised a message, if the scene refuses the value.
+  /// `mergeId` (not -1) become one step. Returns false, having raised a message, if the scene refuses the value; what
+  /// is refused in the background raises it later.
   bool setValue(const std::string& pointer, const Json& value, const QString& text, int mergeId = -1);
-  /// Why the scene would refuse this value, as one sentence; empty if it would take it.
-  QString refusal(const std::string& pointer, const Json& value) const;
+  /// Whether an edit waits for its model.
+  bool isEditing() const { return !pending_.empty(); }
+  /// Drops the edits that still wait.
+  void cancelEdits();
+
   /// The normalised value (SI) at `pointer`, or null.
   Json valueAt(const std::string& pointer) const;
   /// The same in the scene as it was opened or last saved.
@@ -86,6 +100,8 @@ class Document final : public QObject {
   void sceneReplaced();
   /// An edit, an undo or a redo changed the value at `pointer`. Comes after the model was rebuilt.
   void sceneEdited(const std::string& pointer);
+  /// Edits begin to wait for a model, or no edit waits any more.
+  void editingChanged(bool editing);
   void studyChanged(const std::string& name);
   void fileChanged();
   void messageRaised(pliant::base::Severity severity, const QString& sentence);
@@ -94,9 +110,19 @@ class Document final : public QObject {
   friend class EditCommand;
   class EditCommand;
 
-  /// The model of `scene`, made from the present one by what changed at `pointer`. Throws base::InputError.
-  std::shared_ptr<const mechanics::Model> rebuiltModel(const scene::Scene& scene, const std::string& pointer) const;
-  void replaceScene(const scene::Scene& scene, const std::string& pointer);
+  struct Edit {
+    std::string pointer;
+    Json value;
+    QString text;
+    int mergeId = -1;
+  };
+
+  bool isQuick(const std::string& pointer) const;
+  bool apply(const Edit& edit);
+  void applyNext();
+  void push(LoadedScene after, const Edit& edit, bool keepModels);
+  void replaceScene(const scene::Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                    const std::string& pointer);
   void refreshStudies();
   StudyState* findStudy(const std::string& name);
 
@@ -104,6 +130,9 @@ class Document final : public QObject {
   std::optional<scene::Scene> savedScene_;
   std::shared_ptr<const mechanics::Model> model_;
   QString file_;
+  std::function<void(BackgroundWork)> background_;
+  std::deque<Edit> pending_;  ///< the first is being built
+  int ticket_ = 0;            ///< of the build under way; others come too late
   QUndoStack undoStack_;
   std::vector<StudyState> studies_;
 };

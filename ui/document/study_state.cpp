@@ -23,20 +23,25 @@ const Json* findStudy(const scene::Scene& scene, const std::string& name) {
 
 }  // namespace
 
-bool sameModel(const scene::Scene& a, const scene::Scene& b) {
-  if (&a.normalized() == &b.normalized()) return true;
-  const auto matters = [](const std::string& key) {
-    return std::find(keysThatDoNotMatter.begin(), keysThatDoNotMatter.end(), key) == keysThatDoNotMatter.end();
-  };
+bool mattersToModel(const std::string& pointer) {
+  const std::string key = pointer.substr(0, pointer.find('/', 1));
+  return std::none_of(keysThatDoNotMatter.begin(), keysThatDoNotMatter.end(),
+                      [&](std::string_view other) { return key.size() == other.size() + 1 && key.ends_with(other); });
+}
+
+bool sameModel(const Json& a, const Json& b) {
+  if (&a == &b) return true;
   const auto covers = [&](const Json& from, const Json& other) {
     return std::all_of(from.items().begin(), from.items().end(), [&](const auto& item) {
-      if (!matters(item.key())) return true;
+      if (!mattersToModel("/" + item.key())) return true;
       const auto found = other.find(item.key());
       return found != other.end() && *found == item.value();
     });
   };
-  return covers(a.normalized(), b.normalized()) && covers(b.normalized(), a.normalized());
+  return covers(a, b) && covers(b, a);
 }
+
+bool sameModel(const scene::Scene& a, const scene::Scene& b) { return sameModel(a.normalized(), b.normalized()); }
 
 bool sameStudy(const scene::Scene& a, const scene::Scene& b, const std::string& study) {
   if (!sameModel(a, b)) return false;

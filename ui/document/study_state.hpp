@@ -27,6 +27,12 @@ struct StudyState {
 /// Whether both scenes pose the same problem: everything but names, texts and studies is equal.
 bool sameModel(const scene::Scene& a, const scene::Scene& b);
 
+/// The same of normalised scenes.
+bool sameModel(const scene::Json& a, const scene::Json& b);
+
+/// Whether the model depends on the value at this pointer.
+bool mattersToModel(const std::string& pointer);
+
 /// Whether a study of this name gives the same result in both scenes.
 bool sameStudy(const scene::Scene& a, const scene::Scene& b, const std::string& study);
 

@@ -118,6 +118,12 @@ void JobRunner::cancelAll() {
   for (const auto& entry : std::vector(entries_)) cancel(entry->id);
 }
 
+void JobRunner::abandonTopic(const QString& topic) {
+  for (const auto& entry : entries_)
+    if (entry->job.topic == topic) entry->superseded = true;
+  cancelTopic(topic);
+}
+
 void JobRunner::abandonAll() {
   for (const auto& entry : entries_) entry->superseded = true;
   cancelAll();

@@ -24,7 +24,7 @@ using Publish = std::function<void(Delivery)>;
 /// One computation on its own copies of what it reads.
 struct Job {
   QString topic;  ///< a newer job of the same topic supersedes this one
-  QString title;  ///< what the status bar says while it runs
+  QString title;  ///< what the status bar says while it runs; empty: nothing, since nobody asked for it
   /// Runs on the worker thread; its answer is called on the UI thread (may be empty).
   std::function<Delivery(base::ExecutionContext&, const Publish&)> work;
 };
@@ -52,7 +52,8 @@ class JobRunner final : public QObject {
   void cancel(Id id);
   void cancelTopic(const QString& topic);
   void cancelAll();
-  /// Cancels everything, and nothing of it delivers any more: for when the data it was about is gone.
+  /// Cancels, and nothing of it delivers any more: for when the data it was about is gone.
+  void abandonTopic(const QString& topic);
   void abandonAll();
 
   /// Whether a job of this topic waits or runs.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/harmonic/amplitude.hpp"
 #include "core/mechanics/design_parameter.hpp"
+#include "ui/jobs/node_correspondence.hpp"
 
 namespace pliant::jobs {
 
@@ -26,14 +28,17 @@ std::shared_ptr<const scene::HarmonicResult> harmonicResult(const document::Stud
 
 /// Whether both scenes pose the same problem but for the values at `pointers`.
 bool sameBut(const scene::Scene& a, const scene::Scene& b, const std::vector<std::string>& pointers) {
-  scene::Scene changed = a;
+  scene::Json changed = a.normalized();
   for (const std::string& pointer : pointers) {
     const scene::Json::json_pointer path(pointer);
-    if (!a.normalized().contains(path) || !b.normalized().contains(path)) return false;
-    if (a.normalized().at(path) != b.normalized().at(path))
-      changed = changed.withValue(pointer, b.normalized().at(path));
+    if (!changed.contains(path) || !b.normalized().contains(path)) return false;
+    changed[path] = b.normalized().at(path);
+    // A bound that the file leaves out follows the mass.
+    const scene::Json::json_pointer bound(pointer.substr(0, pointer.rfind('/')) + "/maximum");
+    if (!a.json().contains(bound) && !b.json().contains(bound) && b.normalized().contains(bound))
+      changed[bound] = b.normalized().at(bound);
   }
-  return document::sameModel(changed, b);
+  return document::sameModel(changed, b.normalized());
 }
 
 }  // namespace
@@ -47,7 +52,10 @@ MotionSession::MotionSession(document::Document& document, JobRunner& quick, Stu
     : QObject(parent), document_(document), quick_(quick), studies_(studies) {
   connect(&document_, &document::Document::sceneReplaced, this, &MotionSession::reset);
   connect(&document_, &document::Document::sceneEdited, this, [this] {
-    if (node_ >= document_.model()->nodeCount()) selectNode(0);
+    // In this order nobody ever asks a motion for a node that it does not have.
+    putAsideIfUnfit();
+    refreshNode();
+    takeBackIfFit();
     refreshStaleness();
   });
   connect(&document_, &document::Document::studyChanged, this, &MotionSession::follow);
@@ -61,9 +69,11 @@ MotionSession::MotionSession(document::Document& document, JobRunner& quick, Stu
 }
 
 void MotionSession::reset() {
-  quick_.cancelTopic(motionTopic);
-  quick_.cancelTopic(sensitivityTopic);
+  // What they would deliver is about the scene that was open before.
+  quick_.abandonTopic(motionTopic);
+  quick_.abandonTopic(sensitivityTopic);
   shown_.reset();
+  aside_.reset();
   stale_ = false;
   comparable_ = false;
   preview_.reset();
@@ -71,8 +81,8 @@ void MotionSession::reset() {
   effects_.clear();
   followed_.reset();
   follow_ = false;
-  const auto model = document_.model();
-  node_ = model->probes.empty() ? 0 : model->probes.front().node;
+  nodesOf_ = document_.model();
+  node_ = nodesOf_->probes.empty() ? 0 : nodesOf_->probes.front().node;
   Q_EMIT nodeChanged(node_);
   Q_EMIT shownChanged();
   Q_EMIT predictionChanged();
@@ -147,6 +157,13 @@ void MotionSession::showPoint(const std::string& name, int point) {
 
 void MotionSession::show(ShownMotion shown) {
   shown_ = std::move(shown);
+  aside_.reset();
+  if (!sameNodes(shown_->problem->model(), *document_.model())) {
+    putAsideIfUnfit();
+    document_.raise(base::Severity::information,
+                    tr("This motion belongs to another mesh than the scene has by now: run its study again."));
+    return;
+  }
   Q_EMIT shownChanged();
   refreshStaleness();
   if (shown_->sensitivity) {
@@ -159,11 +176,36 @@ void MotionSession::show(ShownMotion shown) {
   }
 }
 
+void MotionSession::putAsideIfUnfit() {
+  if (!shown_ || sameNodes(shown_->problem->model(), *document_.model())) return;
+  aside_ = std::move(shown_);
+  shown_.reset();
+  prediction_.reset();
+  effects_.clear();
+  Q_EMIT shownChanged();
+  Q_EMIT effectsChanged();
+}
+
+void MotionSession::takeBackIfFit() {
+  if (!shown_ && aside_ && sameNodes(aside_->problem->model(), *document_.model()))
+    show(*std::exchange(aside_, std::nullopt));
+}
+
+void MotionSession::refreshNode() {
+  const auto model = document_.model();
+  const auto before = std::exchange(nodesOf_, model);
+  int node = correspondingNode(*before, node_, *model);
+  if (node < 0) node = model->probes.empty() ? 0 : model->probes.front().node;
+  if (node == node_) return;
+  node_ = node;
+  Q_EMIT nodeChanged(node_);
+  refreshEffects();
+}
+
 void MotionSession::computeSensitivity() {
   if (shown_->problem->model().parameters.empty()) return;
   Job job;
   job.topic = sensitivityTopic;
-  job.title = tr("Sensitivity to parameters");
   job.work = [this, problem = shown_->problem, motion = shown_->motion](
                  base::ExecutionContext& context, const Publish&) -> Delivery {
     if (context.cancelRequested()) return {};
@@ -205,7 +247,7 @@ void MotionSession::solveAt(double omega, const std::string& name, int nearestPo
 void MotionSession::update() {
   if (document_.isEmpty()) return;
   const auto model = document_.model();
-  if (!shown_ || shown_->problem->model().nodeCount() != model->nodeCount()) {
+  if (!shown_) {
     runAll();
     return;
   }
@@ -229,7 +271,7 @@ void MotionSession::update() {
     const auto shared = std::make_shared<const HarmonicBalanceProblem>(std::move(problem));
     return [this, shared, motion, scene, predicted] {
       show({shared, motion, scene, nullptr, {}, -1});
-      Q_EMIT updated(predicted, shownAmplitude());
+      if (shown_) Q_EMIT updated(predicted, shownAmplitude());
     };
   };
   quick_.submit(std::move(job));
@@ -239,15 +281,15 @@ void MotionSession::update() {
 }
 
 void MotionSession::refreshStaleness() {
+  const bool wasComparable = std::exchange(comparable_, true);
   stale_ = shown_ && !document::sameModel(shown_->scene, document_.scene());
-  comparable_ = true;
   if (stale_) {
     std::vector<std::string> pointers;
     for (const auto& parameter : shown_->problem->model().parameters) pointers.push_back(parameter->pointer());
-    comparable_ = shown_->problem->model().nodeCount() == document_.model()->nodeCount() &&
-                  sameBut(shown_->scene, document_.scene(), pointers);
+    comparable_ = sameBut(shown_->scene, document_.scene(), pointers);
   }
   refreshPrediction();
+  if (comparable_ != wasComparable) refreshEffects();
 }
 
 std::optional<Vector> MotionSession::parameterChange() const {
@@ -277,7 +319,7 @@ void MotionSession::refreshPrediction() {
 
 void MotionSession::refreshEffects() {
   effects_.clear();
-  if (shown_ && shown_->sensitivity && shown_->sensitivity->regular()) {
+  if (shown_ && comparable_ && shown_->sensitivity && shown_->sensitivity->regular()) {
     // The slope of the very amplitude that the prediction reports, along the predicted motion.
     const auto& parameters = shown_->problem->model().parameters;
     for (std::size_t p = 0; p < parameters.size(); ++p) {

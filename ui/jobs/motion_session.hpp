@@ -39,6 +39,9 @@ struct ParameterEffect {
 /// One motion on show: chosen from a result or solved for a frequency, with its first-order dependence on the
 /// parameters computed behind it, and the motion predicted for the parameters as they are set now. `update` solves
 /// anew, from the prediction, and says how good that was. Solves run as jobs of `quick`; studies run beside them.
+///
+/// What is shown has the nodes of the document's model: where an edit gives that other nodes, the motion is put aside
+/// until the edit is undone. The selected node is always one of the model's: a probe stays selected by its name.
 class MotionSession final : public QObject {
   Q_OBJECT
 
@@ -48,6 +51,8 @@ class MotionSession final : public QObject {
   const std::optional<ShownMotion>& shown() const { return shown_; }
   /// Whether the scene has changed since the shown motion was solved.
   bool isStale() const { return stale_; }
+  /// Whether the scene differs from the one that the shown motion was solved for in parameters alone.
+  bool isComparable() const { return comparable_; }
   /// The predicted coefficients; none if nothing differs, or nothing can be predicted.
   const std::optional<harmonic::Vector>& prediction() const { return prediction_; }
   /// The document's model with the parameter that is being dragged.
@@ -98,6 +103,9 @@ class MotionSession final : public QObject {
   void reset();
   void follow(const std::string& study);
   void show(ShownMotion shown);
+  void putAsideIfUnfit();
+  void takeBackIfFit();
+  void refreshNode();
   void computeSensitivity();
   void refreshStaleness();
   void refreshPrediction();
@@ -108,6 +116,8 @@ class MotionSession final : public QObject {
   JobRunner& quick_;
   StudyRunner& studies_;
   std::optional<ShownMotion> shown_;
+  std::optional<ShownMotion> aside_;                 ///< of other nodes than the model's
+  std::shared_ptr<const mechanics::Model> nodesOf_;  ///< what `node_` counts in
   bool stale_ = false;
   bool comparable_ = false;  ///< the scenes differ in parameters alone
   std::optional<harmonic::Vector> prediction_;

@@ -74,10 +74,11 @@ void Inspector::refresh() {
   const QString name = nodeName(model, node);
   const QString number = QStringLiteral("node %1").arg(node);
   node_->setText(name == number ? QString::number(node) : QStringLiteral("%1 (%2)").arg(name, number));
+  const auto rest = model.restPositions.segment(node * model.dimension, model.dimension);
+  const plots::LengthUnit unit = plots::fittingLengthUnit(rest.cwiseAbs().maxCoeff());
   QStringList place;
-  for (int axis = 0; axis < model.dimension; ++axis)
-    place << plots::formatLength(model.restPositions[node * model.dimension + axis]);
-  place_->setText(place.join(QStringLiteral(", ")));
+  for (const double coordinate : rest) place << QString::number(coordinate * unit.perMetre, 'g', 4);
+  place_->setText(QStringLiteral("%1 %2").arg(place.join(QStringLiteral(", ")), unit.name));
   kind_->setText(kindOf(model, node));
   const auto& shown = session_.shown();
   if (!shown || node >= shown->problem->model().nodeCount()) return;

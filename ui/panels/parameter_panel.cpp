@@ -37,6 +37,7 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   large.setPointSizeF(font().pointSizeF() * 1.6);
   solved_->setFont(large);
   predicted_ = new QLabel;
+  predicted_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long text does not widen the dock
   note_ = new QLabel;
   note_->setWordWrap(true);
   note_->setForegroundRole(QPalette::PlaceholderText);
@@ -45,8 +46,8 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   update_->setFocusPolicy(Qt::NoFocus);
   head->addWidget(of_, 0, 0, 1, 2);
   head->addWidget(solved_, 1, 0);
-  head->addWidget(update_, 1, 1, 2, 1, Qt::AlignRight | Qt::AlignVCenter);
-  head->addWidget(predicted_, 2, 0);
+  head->addWidget(update_, 1, 1, Qt::AlignRight | Qt::AlignVCenter);
+  head->addWidget(predicted_, 2, 0, 1, 2);
   head->addWidget(note_, 3, 0, 1, 2);
   head->setColumnStretch(0, 1);
 
@@ -75,7 +76,10 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   column->addWidget(scroll, 1);
 
   connect(update_, &QPushButton::clicked, &session_, &jobs::MotionSession::update);
-  connect(&document_, &document::Document::sceneReplaced, this, &ParameterPanel::rebuild);
+  connect(&document_, &document::Document::sceneReplaced, this, [this] {
+    impliedMaxima_.clear();
+    rebuild();
+  });
   connect(&document_, &document::Document::sceneEdited, this, &ParameterPanel::refreshValues);
   connect(&document_, &document::Document::fileChanged, this, &ParameterPanel::refreshValues);
   connect(&session_, &jobs::MotionSession::shownChanged, this, &ParameterPanel::refreshReferences);
@@ -102,7 +106,7 @@ void ParameterPanel::rebuild() {
   const auto model = document_.model();
   if (model) {
     for (const auto& parameter : model->parameters) {
-      auto* row = new ParameterRow(document_, parameter);
+      auto* row = new ParameterRow(document_, parameter, impliedMaxima_[parameter->name()]);
       connect(row, &ParameterRow::dragged, &session_, &jobs::MotionSession::preview);
       connect(row, &ParameterRow::dragEnded, &session_, &jobs::MotionSession::endPreview);
       list_->insertWidget(static_cast<int>(rows_.size()), row);
@@ -116,9 +120,11 @@ void ParameterPanel::rebuild() {
 void ParameterPanel::refreshValues() {
   const auto model = document_.model();
   if (!model) return;
-  const bool same = model->parameters.size() == rows_.size() &&
-                    std::equal(rows_.begin(), rows_.end(), model->parameters.begin(),
-                               [](auto* row, const auto& parameter) { return row->pointer() == parameter->pointer(); });
+  const bool same =
+      model->parameters.size() == rows_.size() &&
+      std::equal(rows_.begin(), rows_.end(), model->parameters.begin(), [](auto* row, const auto& parameter) {
+        return row->pointer() == parameter->pointer() && row->name() == parameter->name();
+      });
   if (!same) {
     rebuild();
     refreshReferences();
@@ -131,7 +137,7 @@ void ParameterPanel::refreshValues() {
 
 void ParameterPanel::refreshReferences() {
   const auto& shown = session_.shown();
-  const auto model = shown ? shown->problem->sharedModel() : document_.model();
+  const auto model = shown && session_.isComparable() ? shown->problem->sharedModel() : document_.model();
   if (!model) return;
   for (ParameterRow* row : rows_)
     for (const auto& parameter : model->parameters)

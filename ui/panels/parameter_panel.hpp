@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
 #include <vector>
 
 #include "ui/jobs/motion_session.hpp"
@@ -44,6 +45,7 @@ class ParameterPanel final : public QWidget {
   QLabel* empty_;
   QVBoxLayout* list_;
   std::vector<ParameterRow*> rows_;
+  std::map<std::string, double> impliedMaxima_;  ///< by the parameter's name; while one scene is open
 };
 
 /// "left tip", or "node 57" if the scene has no probe there.

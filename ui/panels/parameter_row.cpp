@@ -33,8 +33,13 @@ QLabel* mutedLabel(QWidget* parent) {
 }  // namespace
 
 ParameterRow::ParameterRow(document::Document& document, std::shared_ptr<const mechanics::DesignParameter> parameter,
-                           QWidget* parent)
-    : QWidget(parent), document_(document), parameter_(std::move(parameter)), pointer_(parameter_->pointer()) {
+                           double& impliedMaximum, QWidget* parent)
+    : QWidget(parent),
+      document_(document),
+      parameter_(std::move(parameter)),
+      pointer_(parameter_->pointer()),
+      name_(parameter_->name()),
+      impliedMaximum_(impliedMaximum) {
   spec_.dimension = parameter_->dimension();
   if (const base::ParameterSpec* declared = scene::specAt(document_.scene(), pointer_)) spec_ = *declared;
   const QString name = QString::fromStdString(parameter_->name());
@@ -99,11 +104,25 @@ ParameterRow::ParameterRow(document::Document& document, std::shared_ptr<const m
   refresh();
 }
 
+bool ParameterRow::givesMaximum() const {
+  return document_.scene().json().contains(Json::json_pointer(entryPointer() + "/maximum"));
+}
+
+std::string ParameterRow::entryPointer() const { return pointer_.substr(0, pointer_.rfind('/')); }
+
 void ParameterRow::commit(double value, bool nudge) {
   const RoundedQuantity near = rounded(value, spec_.dimension);
   const QString text =
       tr("%1 to %2").arg(QString::fromStdString(parameter_->name()), QString::fromStdString(near.text));
-  document_.setValue(pointer_, near.text, text, nudge ? mergeIdOf(pointer_) : -1);
+  if (near.value == 0 && !givesMaximum()) {
+    // Zero implies no maximum: the one that the slider has is written with it.
+    Json changed = document_.scene().json().at(Json::json_pointer(entryPointer()));
+    changed[pointer_.substr(pointer_.rfind('/') + 1)] = near.text;
+    changed["maximum"] = base::formatQuantityExactly(impliedMaximum_, spec_.dimension);
+    document_.setValue(entryPointer(), changed, text);
+  } else {
+    document_.setValue(pointer_, near.text, text, nudge ? mergeIdOf(pointer_) : -1);
+  }
   refresh();
   Q_EMIT dragEnded();
 }
@@ -125,7 +144,18 @@ void ParameterRow::refresh() {
   for (const auto& parameter : model->parameters)
     if (parameter->pointer() == pointer_) parameter_ = parameter;
   const double value = parameter_->value(*model);
-  const double low = parameter_->minimum(*model), high = parameter_->maximum(*model);
+  const double low = parameter_->minimum(*model);
+  double high = 0;
+  if (givesMaximum()) {
+    high = parameter_->maximum(*model);
+  } else {
+    if (impliedMaximum_ == 0) impliedMaximum_ = parameter_->maximum(*model);
+    if (value > impliedMaximum_) {
+      const Json implied = document_.valueAt(entryPointer() + "/maximum");
+      impliedMaximum_ = implied.is_number() ? implied.get<double>() : value;
+    }
+    high = impliedMaximum_;
+  }
   slider_->setBounds(low, high);
   slider_->setRealValue(value);
   const auto text = [&](double number) {

@@ -15,14 +15,20 @@ class ParameterSlider;
 class ValueField;
 
 /// One design parameter: name, symbol, value, slider with bounds, reset, and what it does to the amplitude.
+///
+/// The slider ends at the scene's `maximum`. Where the scene gives none, it ends where it ended when the scene was
+/// opened, whatever the value has become since; only a value typed beyond that moves the end, to what the scene implies
+/// for that value.
 class ParameterRow final : public QWidget {
   Q_OBJECT
 
  public:
+  /// `impliedMaximum` outlives the row and keeps the slider's end where the scene gives none; 0: not known yet.
   ParameterRow(document::Document& document, std::shared_ptr<const mechanics::DesignParameter> parameter,
-               QWidget* parent = nullptr);
+               double& impliedMaximum, QWidget* parent = nullptr);
 
   const std::string& pointer() const { return pointer_; }
+  const std::string& name() const { return name_; }
   ParameterSlider* slider() const { return slider_; }
   ValueField* field() const { return field_; }
   EffectBar* effectBar() const { return effect_; }
@@ -42,12 +48,16 @@ class ParameterRow final : public QWidget {
 
  private:
   void commit(double value, bool nudge);
+  bool givesMaximum() const;
+  std::string entryPointer() const;
   void type(const QString& text);
   void resetValue();
 
   document::Document& document_;
   std::shared_ptr<const mechanics::DesignParameter> parameter_;
   std::string pointer_;
+  std::string name_;  ///< when the row was made
+  double& impliedMaximum_;
   base::ParameterSpec spec_;
   ParameterSlider* slider_;
   ValueField* field_;

@@ -7,6 +7,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "ui/jobs/node_correspondence.hpp"
 #include "ui/panels/parameter_panel.hpp"
 
 namespace pliant::panels {
@@ -61,7 +62,7 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
   plot_ = new plots::ResponsePlot;
 
   auto* head = new QHBoxLayout;
-  head->setContentsMargins(16, 8, 16, 8);
+  head->setContentsMargins(16, 4, 16, 4);
   head->setSpacing(8);
   head->addWidget(studies_);
   head->addWidget(new QLabel(tr("Amplitude of")));
@@ -96,12 +97,15 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
 
   connect(&document_, &document::Document::sceneReplaced, this, &ResponsePanel::rebuild);
   connect(&document_, &document::Document::sceneEdited, this, [this] {
+    fillStudies();
     fillNodes();
     refreshCurve();
     refreshMarkers();
   });
   connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
-    if (name == study_) refreshCurve();
+    if (name != study_) return;
+    refreshEmptyState();
+    refreshCurve();
   });
   connect(&session_, &jobs::MotionSession::nodeChanged, this, [this] {
     fillNodes();
@@ -127,13 +131,23 @@ void ResponsePanel::setHertz(bool hertz) {
 void ResponsePanel::rebuild() {
   drawn_.reset();
   plot_->clear();
-  const QSignalBlocker block(studies_);
   studies_->clear();
-  for (const auto& study : document_.studies())
-    if (isCurve(study)) studies_->addItem(QString::fromStdString(study.name));
-  studies_->setVisible(studies_->count() > 1);
+  fillStudies();
   fillNodes();
   chooseStudy();
+}
+
+void ResponsePanel::fillStudies() {
+  const QString before = studies_->currentText();
+  {
+    const QSignalBlocker block(studies_);
+    studies_->clear();
+    for (const auto& study : document_.studies())
+      if (isCurve(study)) studies_->addItem(QString::fromStdString(study.name));
+    studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
+    studies_->setVisible(studies_->count() > 1);
+  }
+  if (studies_->currentText() != before) chooseStudy();
 }
 
 void ResponsePanel::fillNodes() {
@@ -160,6 +174,8 @@ void ResponsePanel::refreshEmptyState() {
     plot_->setEmptyState(tr("Open a scene to see how far it swings at which frequency."), {});
   else if (study_.empty())
     plot_->setEmptyState(tr("A study of the type frequency_response fills this plot. This scene has none."), {});
+  else if (const auto* study = document_.study(study_); study && study->status == StudyStatus::waiting)
+    plot_->setEmptyState(tr("The study “%1” begins when what runs before it is done.").arg(study_.c_str()), {});
   else
     plot_->setEmptyState(tr("The study “%1” traces how far a node swings at which frequency.").arg(study_.c_str()),
                          tr("Run %1").arg(study_.c_str()));
@@ -167,7 +183,7 @@ void ResponsePanel::refreshEmptyState() {
 
 void ResponsePanel::refreshCurve() {
   const document::StudyState* study = document_.study(study_);
-  if (!study) return;
+  if (!study) return;  // none is left; `chooseStudy` has cleared the plot
   for (const auto& entry : document_.valueAt("/studies"))
     if (entry.value("name", "") == study_) plot_->setFrequencyRange(entry.value("from", 0.0), entry.value("to", 0.0));
   const QString measure = session_.measure() == AmplitudeMeasure::pathLength ? tr("Path length") : tr("Displacement");
@@ -179,7 +195,11 @@ void ResponsePanel::refreshCurve() {
     showCurves(nullptr, {});
     return;
   }
-  const int node = session_.node();
+  const int node = jobs::correspondingNode(*document_.model(), session_.node(), result->problem->model());
+  if (node < 0) {
+    showCurves(nullptr, {});
+    return;
+  }
   const int probe = probeOf(result->problem->model(), node);
   if (probe >= 0) {
     std::vector<double> amplitudes;
@@ -188,10 +208,8 @@ void ResponsePanel::refreshCurve() {
     showCurves(result.get(), amplitudes);
     return;
   }
-  if (node >= result->problem->model().nodeCount()) return;
   jobs::Job job;
   job.topic = amplitudeTopic;
-  job.title = tr("Amplitude of node %1").arg(node);
   job.work = [this, result, node, measure = session_.measure()](
                  base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
     std::vector<double> amplitudes;
@@ -211,7 +229,7 @@ void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::v
   std::vector<ResponseCurve> curves;
   if (result) {
     const mechanics::Model& model = result->problem->model();
-    const int node = session_.node();
+    const int node = jobs::correspondingNode(*document_.model(), session_.node(), model);
     ResponseCurve selected;
     selected.name = nodeName(model, node);
     selected.amplitude = amplitudes;

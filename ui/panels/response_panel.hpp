@@ -32,6 +32,7 @@ class ResponsePanel final : public QWidget {
 
  private:
   void rebuild();
+  void fillStudies();
   void fillNodes();
   void chooseStudy();
   void refreshCurve();

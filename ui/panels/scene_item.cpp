@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ui/document/scene_entries.hpp"
 #include "ui/panels/value_text.hpp"
 
 namespace pliant::panels {
@@ -32,8 +33,10 @@ class Builder {
     QString name = humanName(field.key);
     if (!field.symbol.empty()) name += QStringLiteral("  ") + QString::fromStdString(field.symbol);
     if (value.is_null() && (field.kind == ValueKind::object || field.kind == ValueKind::list)) return;
-    if (value.is_array() && value.empty()) return;
+    const bool canGrow = parent.pointer.empty() && !document::entryTypes(field.key).empty();
+    if (value.is_array() && value.empty() && !canGrow) return;
     SceneItem* item = add(parent, pointer, name, &field);
+    if (canGrow) item->list = field.key;
     fill(*item, value);
   }
 
@@ -69,6 +72,7 @@ class Builder {
       SceneItem* entry =
           add(item, pointer, compound ? entryName(value[i], static_cast<int>(i)) : QString::number(i), spec);
       if (item.pointer == "/studies") entry->study = entry->name;
+      entry->removable = value[i].is_object() && static_cast<int>(value.size()) > item.spec->minimumCount;
       fill(*entry, value[i]);
     }
   }
@@ -85,6 +89,9 @@ class Builder {
     }
     const bool choosesOne = !object->exactlyOne.empty();
     for (const ParameterSpec& field : object->fields) {
+      // A list of masses is read by their masses.
+      if (field.key == "mass" && item.value.isEmpty())
+        item.value = displayText(value.at("mass"), at(scene_.json(), item.pointer + "/mass"), field);
       const bool alternative = choosesOne && std::find(object->exactlyOne.begin(), object->exactlyOne.end(),
                                                        field.key) != object->exactlyOne.end();
       if (alternative && !value.contains(field.key)) continue;  // writing it would contradict the one that is there

@@ -17,7 +17,9 @@ struct SceneItem {
   QString study;  ///< name, if this is a study
   const base::ParameterSpec* spec = nullptr;
   bool editable = false;
-  bool missing = false;  ///< optional and not in the file
+  bool missing = false;    ///< optional and not in the file
+  std::string list;        ///< key, if this is a list to which entries can be added
+  bool removable = false;  ///< an entry of a list that can go
   SceneItem* parent = nullptr;
   std::vector<std::unique_ptr<SceneItem>> children;
 
@@ -26,7 +28,8 @@ struct SceneItem {
   SceneItem* find(const std::string& wanted);
 };
 
-/// The lines of a scene, from its declaration: every key that the file may have, empty lists left out.
+/// The lines of a scene, from its declaration: every key that the file may have. Of empty lists only those are there to
+/// which entries can be added.
 std::unique_ptr<SceneItem> makeSceneItems(const scene::Scene& scene);
 
 }  // namespace pliant::panels

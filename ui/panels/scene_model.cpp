@@ -27,6 +27,7 @@ void copyValues(SceneItem& into, const SceneItem& from) {
   into.study = from.study;
   into.missing = from.missing;
   into.editable = from.editable;
+  into.removable = from.removable;
   for (std::size_t i = 0; i < into.children.size(); ++i) copyValues(*into.children[i], *from.children[i]);
 }
 
@@ -38,7 +39,8 @@ SceneModel::SceneModel(document::Document& document, QObject* parent)
   connect(&document_, &document::Document::sceneEdited, this, &SceneModel::refreshValues);
   connect(&document_, &document::Document::studyChanged, this, [this] {
     if (SceneItem* studies = root_->find("/studies"))
-      Q_EMIT dataChanged(indexFor(studies->children.front().get(), 0), indexFor(studies->children.back().get(), 1));
+      if (!studies->children.empty())
+        Q_EMIT dataChanged(indexFor(studies->children.front().get(), 0), indexFor(studies->children.back().get(), 1));
   });
   if (!document_.isEmpty()) rebuild();
 }
@@ -114,7 +116,9 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
       return editText(
           document_.valueAt(item->pointer), written.contains(path) ? written.at(path) : Json(), *item->spec);
     }
-    case Qt::ToolTipRole: return item->spec ? explanation(*item->spec) : QVariant();
+    case Qt::ToolTipRole:
+      if (value && !item->list.empty()) return tr("Add an entry with the plus or Insert");
+      return item->spec ? explanation(*item->spec) : QVariant();
     case Qt::FontRole: {
       QFont font;
       font.setWeight(isGroup && !value ? QFont::DemiBold : QFont::Normal);

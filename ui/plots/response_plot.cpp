@@ -32,7 +32,8 @@ void ResponsePlot::setCurves(std::vector<ResponseCurve> curves, int selected, do
                              const QString& note) {
   Parts& p = *parts_;
   const ResponseCurve* before = p.curve();
-  const bool begins = status == document::StudyStatus::running && p.status != document::StudyStatus::running;
+  const bool wasRunning = p.status == document::StudyStatus::running;
+  const bool begins = status == document::StudyStatus::running && !wasRunning;
   if (begins && before && before->omega.size() > 1) p.earlierCurve = *before;
   if (status != document::StudyStatus::running && status != document::StudyStatus::waiting) p.earlierCurve = {};
   const bool otherNode = before && selected < static_cast<int>(curves.size()) && before->name != curves[selected].name;
@@ -44,7 +45,9 @@ void ResponsePlot::setCurves(std::vector<ResponseCurve> curves, int selected, do
   p.note = note;
   const bool empty = p.curves.empty() && p.earlierCurve.omega.empty() && status != document::StudyStatus::running;
   p.pages->setCurrentWidget(empty ? p.emptyPage : static_cast<QWidget*>(p.plot));
-  if (otherNode && !p.zoomed) p.top = 0;
+  // Once the curve is whole, the room left for its growth is given back.
+  const bool ends = wasRunning && status != document::StudyStatus::running;
+  if ((otherNode || ends) && !p.zoomed) p.top = 0;
   redrawCurves();
   redrawMarkers();
   updateChip();

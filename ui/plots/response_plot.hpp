@@ -32,7 +32,7 @@ struct ResponsePlace {
 ///
 /// A click on the curve asks for that motion; the frequency cursor can be dragged; the wheel zooms, dragging pans, and
 /// a double click shows everything again. The axes keep still while the curve grows: only what would leave the plot
-/// enlarges them.
+/// enlarges them, and at its end they are fitted once.
 class ResponsePlot final : public QWidget {
   Q_OBJECT
 

@@ -92,10 +92,7 @@ void ResponsePlot::redrawMarkers() {
     const double x = p.predictedPlace->omega * perOmega;
     const double y = p.predictedPlace->amplitude * perMetre;
     if (p.shownPlace) p.step->setData({p.shownPlace->omega * perOmega, x}, {p.shownPlace->amplitude * perMetre, y});
-    p.predictedLabel->position->setCoords(x, y);
-    p.predictedLabel->setPadding(QMargins(16, 2, 4, 2));
-    p.predictedLabel->setColor(p.style.text);
-    p.predictedLabel->setBrush(Qt::NoBrush);
+    p.predictedLabel->setPadding(QMargins(4, 1, 4, 1));
     p.predictedLabel->setText(tr("predicted %1").arg(formatLength(p.predictedPlace->amplitude)));
   }
   const bool cursor = p.draggingCursor || p.shownPlace.has_value();
@@ -115,9 +112,31 @@ void ResponsePlot::redrawMarkers() {
   p.plot->replot(QCustomPlot::rpQueuedReplot);
 }
 
-/// Peaks first, from the highest down; a label that would cover an earlier one is left out.
+/// The predicted amplitude right of its marker. Peaks first, from the highest down; a label that would cover an earlier
+/// one is left out.
 void ResponsePlot::placeLabels() {
   Parts& p = *parts_;
+  QRectF predictedText;
+  if (p.predictedPlace) {
+    const QPointF marker(p.plot->xAxis->coordToPixel(p.predictedPlace->omega * frequencyFactor()),
+                         p.plot->yAxis->coordToPixel(p.predictedPlace->amplitude * p.unit.perMetre));
+    // On the side where it hides less of the curve.
+    const QSizeF size = QFontMetricsF(p.predictedLabel->font()).size(0, p.predictedLabel->text()) + QSizeF(8, 2);
+    const auto hidden = [&](double left) {
+      const QRectF rect(QPointF(left, marker.y() - size.height() / 2), size);
+      if (!QRectF(p.plot->axisRect()->rect()).contains(rect)) return 1'000'000;
+      int count = 0;
+      if (const ResponseCurve* curve = p.curve())
+        for (std::size_t k = 0; k < curve->omega.size(); ++k)
+          count += rect.contains(p.plot->xAxis->coordToPixel(curve->omega[k] * frequencyFactor()),
+                                 p.plot->yAxis->coordToPixel(curve->amplitude[k] * p.unit.perMetre));
+      return count;
+    };
+    const double right = marker.x() + 12, left = marker.x() - 12 - size.width();
+    p.predictedLabel->position->setType(QCPItemPosition::ptAbsolute);
+    p.predictedLabel->position->setCoords(hidden(right) <= hidden(left) ? right : left, marker.y());
+    predictedText = QRectF(p.predictedLabel->position->coords() - QPointF(0, size.height() / 2), size);
+  }
   std::vector<Landmark*> order;
   for (Landmark& landmark : p.landmarks) order.push_back(&landmark);
   std::stable_sort(order.begin(), order.end(), [](const Landmark* a, const Landmark* b) {
@@ -131,7 +150,8 @@ void ResponsePlot::placeLabels() {
                        p.plot->yAxis->coordToPixel(place->amplitude * p.unit.perMetre) - 10, width, 20);
   };
   keepClear(p.shownPlace, 20);
-  keepClear(p.predictedPlace, 144);
+  keepClear(p.predictedPlace, 20);
+  if (p.predictedPlace) taken.push_back(predictedText);
   const QRectF frame = p.plot->axisRect()->rect();
   for (Landmark* landmark : order) {
     const QPointF at(p.plot->xAxis->coordToPixel(landmark->omega * frequencyFactor()),

@@ -2,6 +2,7 @@
 
 #include <QDir>
 #include <QDirIterator>
+#include <QEvent>
 #include <QFile>
 #include <QFileInfo>
 #include <QGridLayout>
@@ -21,7 +22,9 @@ namespace pliant::shell {
 
 namespace {
 
-constexpr QSize cardSize(256, 232);
+constexpr QSize cardSize(256, 248);
+constexpr int gap = 16;
+constexpr int sideMargin = 48;
 constexpr QSize pictureSize(240, 128);
 
 /// A card that is one big button: picture, title, description.
@@ -44,6 +47,8 @@ QPushButton* makeCard(const GalleryScene& scene, QLabel*& picture) {
   description->setWordWrap(true);
   description->setAlignment(Qt::AlignTop);
   description->setForegroundRole(QPalette::PlaceholderText);
+  description->setMinimumHeight(0);
+  description->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // a long text does not push the title up
   for (QLabel* label : {picture, title, description}) {
     label->setAttribute(Qt::WA_TransparentForMouseEvents);
     column->addWidget(label);
@@ -96,20 +101,37 @@ Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), qui
 
   auto* cards = new QWidget;
   auto* grid = new QGridLayout(cards);
+  grid_ = grid;
   grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(16);
-  constexpr int columns = 4;
-  int index = 0;
+  grid->setSpacing(gap);
   for (const GalleryScene& scene : shippedScenes()) {
-    QLabel* picture = nullptr;
-    QPushButton* card = makeCard(scene, picture);
-    connect(card, &QPushButton::clicked, this, [this, file = scene.file] { Q_EMIT sceneChosen(file); });
-    grid->addWidget(card, index / columns, index % columns);
-    ++index;
+    Card card{scene.file, nullptr, nullptr};
+    card.button = makeCard(scene, card.picture);
+    connect(card.button, &QPushButton::clicked, this, [this, file = scene.file] { Q_EMIT sceneChosen(file); });
+    cards_.push_back(card);
+  }
+  layOut();
+  drawPictures();
+  auto* scroll = new QScrollArea;
+  scroll->setWidget(cards);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->viewport()->setBackgroundRole(QPalette::Base);
+  cards->setBackgroundRole(QPalette::Base);
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(sideMargin, 40, sideMargin, 40);
+  column->setSpacing(16);
+  column->addWidget(head);
+  column->addLayout(line);
+  column->addWidget(scroll, 1);
+}
+
+void Gallery::drawPictures() {
+  for (const Card& card : cards_) {
     jobs::Job job;
-    job.topic = QStringLiteral("thumbnail: ") + scene.file;
-    job.title = tr("Picture of %1").arg(scene.title);
-    job.work = [file = scene.file, picture = QPointer<QLabel>(picture), palette = palette(),
+    job.topic = QStringLiteral("thumbnail: ") + card.file;
+    job.work = [file = card.file, picture = QPointer<QLabel>(card.picture), palette = palette(),
                 ratio = devicePixelRatioF()](base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
       if (context.cancelRequested()) return {};
       const QImage image = thumbnail(file, pictureSize, ratio, palette);
@@ -119,21 +141,28 @@ Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), qui
     };
     quick_.submit(std::move(job));
   }
-  grid->setColumnStretch(columns, 1);
-  grid->setRowStretch(index / columns + 1, 1);
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(cards);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->viewport()->setBackgroundRole(QPalette::Base);
-  cards->setBackgroundRole(QPalette::Base);
+}
 
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(48, 40, 48, 40);
-  column->setSpacing(16);
-  column->addWidget(head);
-  column->addLayout(line);
-  column->addWidget(scroll, 1);
+void Gallery::layOut() {
+  const int room = std::max(width(), 640) - 2 * sideMargin;
+  const int columns = std::max(1, (room + gap) / (cardSize.width() + gap));
+  if (columns == columns_) return;
+  for (std::size_t i = 0; i < cards_.size(); ++i)
+    grid_->addWidget(cards_[i].button, static_cast<int>(i) / columns, static_cast<int>(i) % columns);
+  grid_->setColumnStretch(columns_, 0);
+  grid_->setColumnStretch(columns, 1);
+  grid_->setRowStretch(static_cast<int>(cards_.size()), 1);
+  columns_ = columns;
+}
+
+void Gallery::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) drawPictures();
+}
+
+void Gallery::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  layOut();
 }
 
 }  // namespace pliant::shell

@@ -6,6 +6,10 @@
 
 class QGridLayout;
 
+class QGridLayout;
+class QLabel;
+class QPushButton;
+
 namespace pliant::shell {
 
 /// A shipped scene.
@@ -29,8 +33,24 @@ class Gallery final : public QWidget {
   void sceneChosen(const QString& file);
   void openRequested();
 
+ protected:
+  void changeEvent(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  struct Card {
+    QString file;
+    QPushButton* button = nullptr;
+    QLabel* picture = nullptr;
+  };
+
+  void drawPictures();
+  void layOut();
+
   jobs::JobRunner& quick_;
+  std::vector<Card> cards_;
+  QGridLayout* grid_ = nullptr;
+  int columns_ = 0;
 };
 
 }  // namespace pliant::shell

@@ -41,48 +41,69 @@ JobStatus::JobStatus(QWidget* parent) : QWidget(parent) {
 QString JobStatus::text() const { return text_->text(); }
 
 void JobStatus::watch(JobRunner& jobs) {
-  const JobRunner* watched = &jobs;
-  connect(&jobs, &JobRunner::started, this,
-          [this, &jobs](JobRunner::Id id, const QString&, const QString& title) { begin(jobs, id, title); });
-  connect(
-      &jobs, &JobRunner::progressed, this, [this, watched](JobRunner::Id id, double fraction, const QString& message) {
-        if (runner_ == watched && job_ == id) progress(fraction, message);
-      });
-  connect(&jobs, &JobRunner::finished, this, [this, watched](JobRunner::Id id, const QString&, JobOutcome outcome) {
-    if (runner_ == watched && job_ == id) end(outcome);
+  const JobRunner* runner = &jobs;
+  runners_.push_back(runner);
+  connect(&jobs, &JobRunner::started, this, [this, runner](JobRunner::Id id, const QString&, const QString& title) {
+    if (title.isEmpty()) return;
+    running_.push_back({runner, id, title, {}, 0, {}});
+    running_.back().clock.start();
+    refresh();
   });
+  connect(
+      &jobs, &JobRunner::progressed, this, [this, runner](JobRunner::Id id, double fraction, const QString& message) {
+        Running* job = find(*runner, id);
+        if (!job) return;
+        job->fraction = fraction;
+        job->message = message;
+        refresh();
+      });
+  connect(&jobs, &JobRunner::finished, this,
+          [this, runner](JobRunner::Id id, const QString&, JobOutcome outcome) { end(*runner, id, outcome); });
 }
 
-void JobStatus::begin(JobRunner& jobs, JobRunner::Id id, const QString& title) {
-  runner_ = &jobs;
-  job_ = id;
-  title_ = title;
-  clock_.start();
-  bar_->setValue(0);
-  text_->setText(title);
-  bar_->show();
-  cancel_->show();
+JobStatus::Running* JobStatus::shown() {
+  for (const JobRunner* runner : runners_)
+    for (Running& job : running_)
+      if (job.runner == runner) return &job;
+  return nullptr;
 }
 
-void JobStatus::progress(double fraction, const QString& message) {
-  bar_->setValue(static_cast<int>(std::lround(1000 * fraction)));
-  const double elapsed = static_cast<double>(clock_.elapsed()) / 1000;
-  QString text = message.isEmpty() ? title_ : QStringLiteral("%1: %2").arg(title_, message);
-  if (fraction > 0.05 && elapsed > 2)
-    text += tr(", about %1 s left").arg(std::max(1.0, std::round(elapsed * (1 - fraction) / fraction)), 0, 'f', 0);
+JobStatus::Running* JobStatus::find(const JobRunner& runner, JobRunner::Id id) {
+  for (Running& job : running_)
+    if (job.runner == &runner && job.id == id) return &job;
+  return nullptr;
+}
+
+void JobStatus::refresh() {
+  const Running* job = shown();
+  bar_->setVisible(job);
+  cancel_->setVisible(job);
+  if (!job) return;
+  bar_->setValue(static_cast<int>(std::lround(1000 * job->fraction)));
+  const double elapsed = static_cast<double>(job->clock.elapsed()) / 1000;
+  QString text = job->message.isEmpty() ? job->title : QStringLiteral("%1: %2").arg(job->title, job->message);
+  if (job->fraction > 0.05 && elapsed > 2) {
+    const double left = elapsed * (1 - job->fraction) / job->fraction;
+    text += tr(", about %1 s left").arg(std::max(1.0, std::round(left)), 0, 'f', 0);
+  }
   text_->setText(text);
 }
 
-void JobStatus::end(JobOutcome outcome) {
-  runner_ = nullptr;
-  bar_->hide();
-  cancel_->hide();
-  const QString seconds = tr("%1 s").arg(static_cast<double>(clock_.elapsed()) / 1000, 0, 'f', 1);
-  switch (outcome) {
-    case JobOutcome::done: text_->setText(tr("%1: done in %2").arg(title_, seconds)); break;
-    case JobOutcome::cancelled: text_->setText(tr("%1: cancelled after %2").arg(title_, seconds)); break;
-    case JobOutcome::failed: text_->setText(tr("%1: failed").arg(title_)); break;
+void JobStatus::end(const JobRunner& runner, JobRunner::Id id, JobOutcome outcome) {
+  Running* job = find(runner, id);
+  if (!job) return;
+  const bool wasShown = job == shown();
+  const QString title = job->title;
+  const QString seconds = tr("%1 s").arg(static_cast<double>(job->clock.elapsed()) / 1000, 0, 'f', 1);
+  running_.erase(running_.begin() + (job - running_.data()));
+  if (wasShown) {
+    switch (outcome) {
+      case JobOutcome::done: text_->setText(tr("%1: done in %2").arg(title, seconds)); break;
+      case JobOutcome::cancelled: text_->setText(tr("%1: cancelled after %2").arg(title, seconds)); break;
+      case JobOutcome::failed: text_->setText(tr("%1: failed").arg(title)); break;
+    }
   }
+  refresh();
 }
 
 }  // namespace pliant::shell

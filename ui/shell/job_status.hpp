@@ -2,6 +2,7 @@
 
 #include <QElapsedTimer>
 #include <QWidget>
+#include <vector>
 
 #include "ui/jobs/job_runner.hpp"
 
@@ -11,7 +12,8 @@ class QToolButton;
 
 namespace pliant::shell {
 
-/// What runs, how far it is, how long it will take, and the button that ends it.
+/// What runs, how far it is, how long it will take, and the button that ends it. Where several jobs run, that of the
+/// runner watched first is shown, so that a quick job does not hide a study. Jobs without a title are not shown.
 class JobStatus final : public QWidget {
   Q_OBJECT
 
@@ -25,17 +27,26 @@ class JobStatus final : public QWidget {
   void cancelRequested();
 
  private:
-  void begin(jobs::JobRunner& jobs, jobs::JobRunner::Id id, const QString& title);
-  void progress(double fraction, const QString& message);
-  void end(jobs::JobOutcome outcome);
+  struct Running {
+    const jobs::JobRunner* runner = nullptr;
+    jobs::JobRunner::Id id = 0;
+    QString title;
+    QString message;
+    double fraction = 0;
+    QElapsedTimer clock;
+  };
+
+  /// Null if no job is shown.
+  Running* shown();
+  Running* find(const jobs::JobRunner& runner, jobs::JobRunner::Id id);
+  void end(const jobs::JobRunner& runner, jobs::JobRunner::Id id, jobs::JobOutcome outcome);
+  void refresh();
 
   QLabel* text_;
   QProgressBar* bar_;
   QToolButton* cancel_;
-  QElapsedTimer clock_;
-  const jobs::JobRunner* runner_ = nullptr;  ///< of the job on show
-  jobs::JobRunner::Id job_ = 0;
-  QString title_;
+  std::vector<const jobs::JobRunner*> runners_;  ///< in the order in which they were watched
+  std::vector<Running> running_;
 };
 
 }  // namespace pliant::shell

@@ -35,6 +35,10 @@
 
 namespace pliant::shell {
 
+namespace {
+const QString openTopic = QStringLiteral("open");
+}
+
 MainWindow::MainWindow(bool remember, QWidget* parent)
     : QMainWindow(parent),
       remember_(remember),
@@ -54,7 +58,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent)
   connectParts();
   resize(sizeHint());
   resizeDocks({docks_[0], docks_[1]}, {288, 320}, Qt::Horizontal);
-  resizeDocks({docks_[3]}, {272}, Qt::Vertical);
+  resizeDocks({docks_[3]}, {312}, Qt::Vertical);
   setDocksVisible(false);
   refreshTitle();
   refreshActions();
@@ -68,8 +72,10 @@ MainWindow::~MainWindow() {
   session_.disconnect();
   studyJobs_.disconnect(status_);
   quickJobs_.disconnect(status_);
+  sceneJobs_.disconnect(status_);
   studyJobs_.disconnect(this);
   quickJobs_.disconnect(this);
+  sceneJobs_.disconnect(this);
   delete takeCentralWidget();
   for (QDockWidget* dock : docks_) delete dock;
 }
@@ -135,14 +141,21 @@ void MainWindow::buildStatusBar() {
 void MainWindow::connectParts() {
   new ViewportLink(document_, session_, *viewport_, this);
   status_->watch(studyJobs_);
+  status_->watch(sceneJobs_);
   status_->watch(quickJobs_);
-  connect(status_, &JobStatus::cancelRequested, &session_, &jobs::MotionSession::cancel);
+  connect(status_, &JobStatus::cancelRequested, this, &MainWindow::cancel);
+  document_.setBackground([this](document::BackgroundWork work) {
+    sceneJobs_.submit({QStringLiteral("edit"), tr("Building the model"),
+                       [work = std::move(work)](base::ExecutionContext&, const jobs::Publish&) { return work(); }});
+  });
+  connect(&document_, &document::Document::editingChanged, this, &MainWindow::refreshActions);
   connect(gallery_, &Gallery::sceneChosen, this, [this](const QString& file) { openFile(file, true); });
   connect(gallery_, &Gallery::openRequested, this, &MainWindow::chooseFile);
   connect(tree_, &panels::SceneTree::studyActivated, this, [this](const std::string& name) { session_.run({name}); });
+  connect(&session_, &jobs::MotionSession::nodeChanged, tree_, &panels::SceneTree::setSelectedNode);
   connect(response_, &panels::ResponsePanel::readoutChanged, readout_, &QLabel::setText);
   connect(&document_, &document::Document::messageRaised, this, &MainWindow::report);
-  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_})
+  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_, &sceneJobs_})
     connect(runner, &jobs::JobRunner::logged, this, [this](base::Severity severity, const QString& sentence) {
       if (severity == base::Severity::warning)
         report(severity, sentence);
@@ -161,11 +174,13 @@ void MainWindow::connectParts() {
 
 void MainWindow::openFile(const QString& file, bool run) {
   jobs::Job job;
-  job.topic = QStringLiteral("open");
+  job.topic = openTopic;
   job.title = tr("Open %1").arg(QFileInfo(file).fileName());
-  job.work = [this, file, run](base::ExecutionContext&, const jobs::Publish&) -> jobs::Delivery {
+  job.work = [this, file, run](base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
     try {
-      return [this, file, run, loaded = document::loadScene(file)] {
+      auto loaded = document::loadScene(file);
+      if (context.cancelRequested()) return {};
+      return [this, file, run, loaded = std::move(loaded)] {
         keepUnsaved();
         document_.adopt(loaded, file);
         recent_.add(file);
@@ -175,7 +190,20 @@ void MainWindow::openFile(const QString& file, bool run) {
       return [this, sentence = QString::fromStdString(error.what())] { report(base::Severity::warning, sentence); };
     }
   };
-  quickJobs_.submit(std::move(job));
+  sceneJobs_.submit(std::move(job));
+}
+
+void MainWindow::undo() {
+  if (document_.isEditing())
+    document_.cancelEdits();
+  else
+    document_.undoStack().undo();
+}
+
+void MainWindow::cancel() {
+  session_.cancel();
+  document_.cancelEdits();
+  sceneJobs_.cancelTopic(openTopic);
 }
 
 void MainWindow::chooseFile() {

@@ -73,6 +73,8 @@ class MainWindow final : public QMainWindow {
   void fillRecentMenu(QMenu* menu);
 
   void chooseFile();
+  void undo();
+  void cancel();
   bool save();
   bool saveAs();
   void exportShown();
@@ -94,6 +96,7 @@ class MainWindow final : public QMainWindow {
   document::Document document_;
   jobs::JobRunner studyJobs_;
   jobs::JobRunner quickJobs_;
+  jobs::JobRunner sceneJobs_;  ///< reads scenes and builds models, so that neither waits for a solve
   jobs::StudyRunner studies_;
   jobs::MotionSession session_;
   document::RecentFiles recent_;

@@ -43,8 +43,7 @@ void MainWindow::makeActions() {
       [this] { pages_->setCurrentIndex(pages_->currentIndex() == 0 && !document_.isEmpty() ? 1 : 0); });
   add("file.quit", tr("&Quit"), "", QKeySequence(Qt::CTRL | Qt::Key_Q), tr("Close the window"), [this] { close(); });
 
-  add("edit.undo", tr("&Undo"), "undo", QKeySequence::Undo, tr("Undo the last edit"),
-      [this] { document_.undoStack().undo(); });
+  add("edit.undo", tr("&Undo"), "undo", QKeySequence::Undo, tr("Undo the last edit"), [this] { undo(); });
   add("edit.redo", tr("&Redo"), "redo", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z),
       tr("Redo the edit that was undone"), [this] { document_.undoStack().redo(); });
   add("edit.find", tr("&Find Anything…"), "search", QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P),
@@ -97,7 +96,7 @@ void MainWindow::makeActions() {
   add("study.update", tr("&Update"), "update", QKeySequence(Qt::Key_U),
       tr("Solve anew with the scene as it is, from the prediction"), [this] { session_.update(); });
   add("study.cancel", tr("&Cancel"), "cancel", QKeySequence(Qt::CTRL | Qt::Key_Period),
-      tr("End what runs; what has been found stays"), [this] { session_.cancel(); });
+      tr("End what runs; what has been found stays"), [this] { cancel(); });
 
   add("help.format", tr("Scene &Format"), "", QKeySequence::HelpContents, tr("Read what a scene file may say"),
       [] { QDesktopServices::openUrl(QUrl::fromLocalFile(shippedFile(QStringLiteral("scenes/README.md")))); });
@@ -211,15 +210,17 @@ void MainWindow::refreshActions() {
   const auto enable = [this](const char* id, bool enabled) { actions_.find(QLatin1String(id))->setEnabled(enabled); };
   const bool open = !document_.isEmpty();
   const bool busy = session_.isBusy();
-  for (const char* id : {"file.save", "file.saveAs", "file.export", "view.fit", "model.nextProbe", "model.reset"})
-    enable(id, open);
+  // What an edit that still waits for its model would change has to wait for it.
+  const bool editing = document_.isEditing();
+  for (const char* id : {"file.export", "view.fit", "model.nextProbe"}) enable(id, open);
+  for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
   enable("view.play", session_.shown().has_value());
-  enable("study.run", open && !document_.studies().empty() && !busy);
-  enable("study.update", open && session_.isStale() && !busy);
-  enable("study.cancel", busy);
+  enable("study.run", open && !document_.studies().empty() && !busy && !editing);
+  enable("study.update", open && session_.isStale() && !busy && !editing);
+  enable("study.cancel", busy || editing);
   const QUndoStack& stack = document_.undoStack();
-  enable("edit.undo", stack.canUndo());
-  enable("edit.redo", stack.canRedo());
+  enable("edit.undo", stack.canUndo() || editing);
+  enable("edit.redo", stack.canRedo() && !editing);
   actions_.find(QStringLiteral("edit.undo"))
       ->setText(stack.canUndo() ? tr("&Undo %1").arg(stack.undoText()) : tr("&Undo"));
   actions_.find(QStringLiteral("edit.redo"))

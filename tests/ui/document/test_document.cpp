@@ -36,6 +36,9 @@ class TestDocument : public QObject {
   void titlesMakeNothingStale();
   void cancelledAndFailedStayMarked();
   void theModelFollowsTheScene();
+  void editsThatNeedAModelAreBuiltInTheBackgroundOnce();
+  void laterEditsWaitBehindOneThatIsBuilt();
+  void waitingEditsCanBeDropped();
   void badFilesLeaveTheDocument();
   void savingCleansAndCanBeReadBack();
   void recentFilesAreNewestFirst();
@@ -144,6 +147,82 @@ void TestDocument::theModelFollowsTheScene() {
   QCOMPARE(document_->model()->massMatrix().coeff(0, 0), 1.0);
   QVERIFY(document_->setValue("/damping/mass_proportional", 0.5, "Damping"));
   QCOMPARE(document_->model()->massDamping, 0.5);
+}
+
+/// Keeps the work, so that the test says when it runs and when it is delivered.
+struct HeldWork {
+  std::vector<document::BackgroundWork> work;
+  void runAll() {
+    while (!work.empty()) {
+      const auto first = work.front();
+      work.erase(work.begin());
+      first()();
+    }
+  }
+};
+
+void TestDocument::editsThatNeedAModelAreBuiltInTheBackgroundOnce() {
+  HeldWork held;
+  int count = 0;
+  document_->setBackground([&](document::BackgroundWork work) {
+    ++count;
+    held.work.push_back(std::move(work));
+  });
+  QSignalSpy editing(document_.get(), &Document::editingChanged);
+  const auto before = document_->model();
+  QVERIFY(document_->setValue("/damping/mass_proportional", 0.5, "Damping"));
+  // Scene and model stay together until the new model is there.
+  QVERIFY(document_->isEditing());
+  QCOMPARE(document_->model(), before);
+  QCOMPARE(document_->undoStack().count(), 0);
+  held.runAll();
+  QVERIFY(!document_->isEditing());
+  QCOMPARE(document_->valueAt("/damping/mass_proportional").get<double>(), 0.5);
+  QCOMPARE(document_->model()->massDamping, 0.5);
+  QCOMPARE(editing.count(), 2);
+  // Undo and redo have both models at hand.
+  const auto after = document_->model();
+  document_->undoStack().undo();
+  QCOMPARE(document_->model(), before);
+  document_->undoStack().redo();
+  QCOMPARE(document_->model(), after);
+  // Parameters and studies do not need the background.
+  QVERIFY(document_->setValue(mass, "1.5 kg", "Mass"));
+  QVERIFY(document_->setValue("/studies/0/frequency", "1.3 rad/s", "Frequency"));
+  QCOMPARE(document_->undoStack().count(), 3);
+  QCOMPARE(count, 1);
+}
+
+void TestDocument::laterEditsWaitBehindOneThatIsBuilt() {
+  HeldWork held;
+  document_->setBackground([&](document::BackgroundWork work) { held.work.push_back(std::move(work)); });
+  QSignalSpy raised(document_.get(), &Document::messageRaised);
+  QVERIFY(document_->setValue("/damping/mass_proportional", 0.5, "Damping"));
+  QVERIFY(document_->setValue(mass, "1.5 kg", "Mass"));
+  QVERIFY(document_->setValue("/damping/mass_proportional", -1, "Bad damping"));
+  QCOMPARE(document_->undoStack().count(), 0);
+  held.runAll();
+  QVERIFY(!document_->isEditing());
+  QCOMPARE(document_->undoStack().count(), 2);
+  QCOMPARE(raised.count(), 1);
+  QCOMPARE(document_->model()->massDamping, 0.5);
+  QCOMPARE(document_->model()->parameters.front()->value(*document_->model()), 1.5);
+}
+
+void TestDocument::waitingEditsCanBeDropped() {
+  HeldWork held;
+  document_->setBackground([&](document::BackgroundWork work) { held.work.push_back(std::move(work)); });
+  QVERIFY(document_->setValue("/damping/mass_proportional", 0.5, "Damping"));
+  document_->cancelEdits();
+  QVERIFY(!document_->isEditing());
+  QVERIFY(document_->setValue("/damping/mass_proportional", 0.25, "Damping"));
+  held.runAll();
+  QCOMPARE(document_->undoStack().count(), 1);
+  QCOMPARE(document_->valueAt("/damping/mass_proportional").get<double>(), 0.25);
+  QVERIFY(document_->setValue("/damping/mass_proportional", 0.75, "Damping"));
+  QVERIFY(document_->open(duffing));  // another scene: what waits was not about it
+  held.runAll();
+  QCOMPARE(document_->undoStack().count(), 0);
 }
 
 void TestDocument::badFilesLeaveTheDocument() {

@@ -3,6 +3,8 @@
 #include <QSignalSpy>
 #include <QTest>
 
+#include "core/mechanics/model.hpp"
+#include "ui/document/scene_entries.hpp"
 #include "ui/panels/scene_tree.hpp"
 
 using namespace pliant;
@@ -66,6 +68,94 @@ class TestSceneTree : public QObject {
     QCOMPARE(study.data().toString(), QString("solved"));
     QVERIFY(document_->setValue("/point_masses/0/mass", "2 kg", "Mass"));
     QCOMPARE(at("/studies/0").data().toString(), QString("stale"));
+  }
+
+  void everyKindOfEntryCanBeAddedAndUndone() {
+    // Of every kind of entry of every list the default fits into the scene, or is refused with a sentence that says
+    // what it lacks: an element needs triangles, a node is driven once.
+    const auto before = document_->scene().json();
+    for (const auto& field : scene::sceneSpec().fields) {
+      for (const std::string& type : document::entryTypes(field.key)) {
+        const auto count = document_->valueAt("/" + field.key).size();
+        QSignalSpy raised(document_.get(), &document::Document::messageRaised);
+        tree_->addEntry(field.key, type);
+        if (raised.isEmpty()) {
+          QCOMPARE(document_->valueAt("/" + field.key).size(), count + 1);
+          QCOMPARE(tree_->currentIndex(), at("/" + field.key + "/" + std::to_string(count)));
+          document_->undoStack().undo();
+        } else {
+          QVERIFY2(raised[0][1].toString().endsWith('.'), qPrintable(raised[0][1].toString()));
+        }
+        QVERIFY(document_->scene().json() == before);
+      }
+    }
+  }
+
+  void inAShellEveryMassDriveAndStudyCanBeAdded() {
+    QVERIFY(document_->open(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/fork.json")));
+    tree_->setSelectedNode(40);
+    QSignalSpy raised(document_.get(), &document::Document::messageRaised);
+    for (const auto& [list, type] : std::vector<std::pair<std::string, std::string>>{{"point_masses", "point_mass"},
+                                                                                     {"probes", "probe"},
+                                                                                     {"drives", "translation"},
+                                                                                     {"loads", "gravity"},
+                                                                                     {"loads", "harmonic_force"},
+                                                                                     {"springs", "between"},
+                                                                                     {"springs", "grounded"},
+                                                                                     {"springs", "anchored"},
+                                                                                     {"boundary_conditions", "locked"},
+                                                                                     {"studies", "periodic_motion"},
+                                                                                     {"studies", "frequency_response"},
+                                                                                     {"materials", "isotropic"},
+                                                                                     {"geometry", "strip"}}) {
+      tree_->addEntry(list, type);
+      QVERIFY2(raised.isEmpty(), qPrintable(raised.isEmpty() ? QString() : raised[0][1].toString()));
+      if (list == "geometry") {
+        // What meant the only geometry names it now.
+        QCOMPARE(document_->valueAt("/elements/0/geometry").get<std::string>(), std::string("fork"));
+        QCOMPARE(document_->scene().json()["probes"][0]["at"]["geometry"].get<std::string>(), std::string("fork"));
+      }
+      if (list == "drives" || list == "boundary_conditions" || list == "geometry") document_->undoStack().undo();
+    }
+    // A mass sits on the selected node.
+    QCOMPARE(document_->model()->pointMasses.back().nodes, std::vector<int>{40});
+    QCOMPARE(document_->study("motion 2")->type, std::string("periodic_motion"));
+  }
+
+  void entriesAreDuplicatedAndRemovedByKeys() {
+    QVERIFY(document_->open(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/fork.json")));
+    const auto before = document_->scene().json();
+    tree_->setCurrentIndex(at("/point_masses/0"));
+    tree_->expand(at("/drives").siblingAtColumn(0));
+    QTest::keyClick(tree_.get(), Qt::Key_D, Qt::ControlModifier);
+    QCOMPARE(document_->valueAt("/point_masses").size(), std::size_t(3));
+    QCOMPARE(document_->valueAt("/point_masses/1/name").get<std::string>(), std::string("left tip 2"));
+    QVERIFY(tree_->isExpanded(at("/drives").siblingAtColumn(0)));  // the tree stays as open as it was
+    QTest::keyClick(tree_.get(), Qt::Key_Delete);
+    QCOMPARE(document_->valueAt("/point_masses").size(), std::size_t(2));
+    QVERIFY(document_->scene().json() == before);
+    tree_->setCurrentIndex(at("/studies/1"));
+    QTest::keyClick(tree_.get(), Qt::Key_Delete);
+    QVERIFY(!document_->study("response"));
+    QCOMPARE(document_->undoStack().undoText(), QString("Remove response"));
+    for (int i = 0; i < 3; ++i) document_->undoStack().undo();
+    QVERIFY(document_->scene().json() == before);
+    // What something else needs cannot go.
+    QSignalSpy raised(document_.get(), &document::Document::messageRaised);
+    tree_->setCurrentIndex(at("/geometry/0"));
+    QTest::keyClick(tree_.get(), Qt::Key_Delete);
+    QCOMPARE(raised.count(), 1);
+    QVERIFY(document_->scene().json() == before);
+  }
+
+  void thePlusAndInsertAdd() {
+    const QModelIndex list = at("/probes");
+    tree_->setCurrentIndex(list);
+    QTest::keyClick(tree_.get(), Qt::Key_Insert);
+    QCOMPARE(document_->valueAt("/probes").size(), std::size_t(2));
+    const QRect line = tree_->visualRect(at("/point_masses"));
+    QTest::mouseClick(tree_->viewport(), Qt::LeftButton, {}, QPoint(line.right() - 14, line.center().y()));
+    QCOMPARE(document_->valueAt("/point_masses").size(), std::size_t(2));
   }
 
   void everyLineExplainsItself() {

@@ -1,3 +1,5 @@
+#include <QDropEvent>
+#include <QMimeData>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -9,6 +11,7 @@
 #include "ui/panels/parameter_row.hpp"
 #include "ui/panels/parameter_slider.hpp"
 #include "ui/panels/response_panel.hpp"
+#include "ui/panels/scene_tree.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -33,6 +36,13 @@ class TestMainWindow : public QObject {
   void aBadFileLeavesTheSceneIntact();
   void undoOfANonParameterEditMakesFresh();
   void clickingTheCurveShowsThatMotion();
+  void anotherSceneTakesSelectionAndMotionAlong();
+  void otherNodesPutTheMotionAsideUntilUndo();
+  void aSliderWithoutMaximumKeepsItsEnd();
+  void aMassCanBeDraggedToNothing();
+  void aMissingFileIsOneSentence();
+  void droppedFilesAreOpened();
+  void closingEndsWhatRuns();
 
  private:
   void openScene();
@@ -180,6 +190,7 @@ void TestMainWindow::undoOfANonParameterEditMakesFresh() {
   openScene();
   runAll();
   QVERIFY(window_->document().setValue("/damping/mass_proportional", "0.08 1/s", "Damping"));
+  QTRY_VERIFY_WITH_TIMEOUT(!window_->document().isEditing(), patience);  // another model is built beside the window
   QVERIFY(window_->session().isStale());
   QVERIFY(!window_->session().prediction().has_value());  // damping is no parameter
   QVERIFY(!window_->session().predictionObstacle().isEmpty());
@@ -204,6 +215,138 @@ void TestMainWindow::clickingTheCurveShowsThatMotion() {
   QVERIFY(std::abs(window_->session().shown()->motion.omega - point.omega) < 0.02);
   // Its sensitivity comes behind it.
   QTRY_VERIFY_WITH_TIMEOUT(!window_->session().effects().empty(), patience);
+}
+
+void TestMainWindow::anotherSceneTakesSelectionAndMotionAlong() {
+  const QString chain = QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/spring_chain.json");
+  QSignalSpy replaced(&window_->document(), &document::Document::sceneReplaced);
+  window_->openFile(chain);
+  QTRY_COMPARE_WITH_TIMEOUT(replaced.count(), 1, patience);
+  window_->session().run({"response"});
+  QTRY_VERIFY_WITH_TIMEOUT(!window_->session().isBusy() && window_->session().shown(), patience);
+  const int last = window_->document().model()->nodeCount() - 1;
+  window_->session().selectNode(last);
+  QCOMPARE(window_->session().node(), last);
+  // A solve is under way when another scene comes: what it finds is not about that scene.
+  window_->session().solveAt(1.1 * window_->session().shown()->motion.omega, "response", 0);
+  QVERIFY(window_->document().open(duffing));
+  const auto model = window_->document().model();
+  QCOMPARE(window_->session().node(), model->probes.front().node);
+  QVERIFY(!window_->session().shown().has_value());
+  QTest::qWait(300);
+  QVERIFY(!window_->session().shown().has_value());
+  QCOMPARE(window_->session().node(), model->probes.front().node);
+  QCOMPARE(window_->viewport().selectedNode().value_or(-1), window_->session().node());
+}
+
+void TestMainWindow::otherNodesPutTheMotionAsideUntilUndo() {
+  const QString strip = QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/membrane_strip.json");
+  QSignalSpy replaced(&window_->document(), &document::Document::sceneReplaced);
+  window_->openFile(strip);
+  QTRY_COMPARE_WITH_TIMEOUT(replaced.count(), 1, patience);
+  jobs::MotionSession& session = window_->session();
+  session.run({"motion"});
+  QTRY_VERIFY_WITH_TIMEOUT(!session.isBusy() && session.shown(), patience);
+  const double amplitude = session.shownAmplitude();
+  const auto probe = [&] { return window_->document().model()->probes.front(); };
+  QCOMPARE(session.node(), probe().node);
+  const int before = session.node();
+
+  const auto cells = window_->document().valueAt("/geometry/0/length_cells").get<int>();
+  QVERIFY(window_->document().setValue("/geometry/0/length_cells", 2 * cells, "Cells"));
+  QVERIFY(window_->document().isEditing());
+  QVERIFY(!action("study.run")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(!window_->document().isEditing(), patience);
+  // The probe has another number by now, and stays the one that is selected.
+  QVERIFY(probe().node != before);
+  QCOMPARE(session.node(), probe().node);
+  QCOMPARE(window_->viewport().selectedNode().value_or(-1), session.node());
+  QVERIFY(!session.shown().has_value());
+
+  action("edit.undo")->trigger();
+  QCOMPARE(session.node(), before);
+  QVERIFY(session.shown().has_value());
+  QVERIFY(!session.isStale());
+  QCOMPARE(session.shownAmplitude(), amplitude);
+}
+
+void TestMainWindow::aSliderWithoutMaximumKeepsItsEnd() {
+  openScene();
+  document::Document& document = window_->document();
+  QVERIFY(!document.scene().json().at("point_masses")[0].contains("maximum"));
+  const auto end = [&] { return window_->parameters().row(mass)->slider()->realMaximum(); };
+  QCOMPARE(end(), 5.0);
+  QVERIFY(document.setValue(mass, "3 kg", "Mass"));
+  QCOMPARE(end(), 5.0);
+  QVERIFY(document.setValue("/damping/mass_proportional", "0.08 1/s", "Damping"));
+  QTRY_VERIFY_WITH_TIMEOUT(!document.isEditing(), patience);
+  QCOMPARE(end(), 5.0);
+  // A second mass makes all rows anew.
+  window_->sceneTree().addEntry("point_masses", "point_mass");
+  QTRY_VERIFY_WITH_TIMEOUT(!document.isEditing(), patience);
+  QVERIFY(window_->parameters().row("/point_masses/1/mass"));
+  QCOMPARE(end(), 5.0);
+  // Only what lies beyond moves it, and what the scene says.
+  QVERIFY(document.setValue(mass, "8 kg", "Mass"));
+  QCOMPARE(end(), 40.0);
+  document.undoStack().undo();
+  QCOMPARE(end(), 40.0);
+  QVERIFY(document.setValue("/point_masses/0/maximum", "6 kg", "Maximum"));
+  QTRY_VERIFY_WITH_TIMEOUT(!document.isEditing(), patience);
+  QCOMPARE(end(), 6.0);
+}
+
+void TestMainWindow::aMassCanBeDraggedToNothing() {
+  QSignalSpy replaced(&window_->document(), &document::Document::sceneReplaced);
+  window_->openFile(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/membrane_strip.json"));
+  QTRY_COMPARE_WITH_TIMEOUT(replaced.count(), 1, patience);
+  document::Document& document = window_->document();
+  scene::Json entry = document.scene().json().at("point_masses")[0];
+  entry.erase("maximum");
+  QVERIFY(document.setValue("/point_masses/0", entry, "No maximum"));
+  QTRY_VERIFY_WITH_TIMEOUT(!document.isEditing(), patience);
+  auto* slider = window_->parameters().row(mass)->slider();
+  const double end = slider->realMaximum();
+  QTest::keyClick(slider, Qt::Key_Home);
+  QTRY_VERIFY_WITH_TIMEOUT(!document.isEditing(), patience);
+  QCOMPARE(document.valueAt(mass).get<double>(), 0.0);
+  QCOMPARE(window_->parameters().row(mass)->slider()->realMaximum(), end);
+  document.undoStack().undo();
+  QVERIFY(document.valueAt(mass).get<double>() > 0);
+}
+
+void TestMainWindow::aMissingFileIsOneSentence() {
+  window_->openFile("/no/such/folder/scene.json");
+  QTRY_VERIFY_WITH_TIMEOUT(window_->messages().isVisible(), patience);
+  const QString sentence = window_->messages().sentence();
+  QVERIFY2(sentence.contains("/no/such/folder/scene.json") && sentence.endsWith('.'), qPrintable(sentence));
+  QCOMPARE(sentence.count('\n'), 0);
+  QVERIFY(window_->document().isEmpty());
+  QVERIFY(!action("study.run")->isEnabled());
+}
+
+void TestMainWindow::droppedFilesAreOpened() {
+  QSignalSpy replaced(&window_->document(), &document::Document::sceneReplaced);
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(duffing)});
+  QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &enter);
+  QVERIFY(enter.isAccepted());
+  QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window_.get(), &drop);
+  QTRY_COMPARE_WITH_TIMEOUT(replaced.count(), 1, patience);
+  QCOMPARE(window_->document().file(), duffing);
+}
+
+void TestMainWindow::closingEndsWhatRuns() {
+  openScene();
+  QVERIFY(window_->document().setValue("/studies/1/maximum_step", 0.002, "Step"));
+  window_->session().run({"response"});
+  QTRY_VERIFY_WITH_TIMEOUT(window_->response().plot()->pointCount() >= 5, patience);
+  QCOMPARE(status("response"), QString("running"));
+  QVERIFY(window_->close());
+  window_.reset();
+  QCoreApplication::processEvents();
 }
 
 QTEST_MAIN(TestMainWindow)
