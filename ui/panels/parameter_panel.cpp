@@ -37,7 +37,10 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   large.setPointSizeF(font().pointSizeF() * 1.6);
   solved_->setFont(large);
   predicted_ = new QLabel;
-  predicted_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // a long text does not widen the dock
+  // A long text does not widen the dock, and the sliders stay where they are as it comes and goes.
+  QSizePolicy predictedPolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  predictedPolicy.setRetainSizeWhenHidden(true);
+  predicted_->setSizePolicy(predictedPolicy);
   note_ = new QLabel;
   note_->setWordWrap(true);
   note_->setForegroundRole(QPalette::PlaceholderText);
@@ -181,7 +184,7 @@ void ParameterPanel::refreshSummary() {
                                                                 change < 0 ? QStringLiteral("−") : QStringLiteral("+"))
                                                            .arg(std::abs(change), 0, 'f', 1)));
   } else {
-    predicted_->clear();
+    predicted_->setText(QStringLiteral(" "));
   }
   const QString obstacle = session_.predictionObstacle();
   note_->setText(obstacle);

@@ -126,8 +126,8 @@ void ResponsePlot::placeLabels() {
       const QRectF rect(QPointF(left, marker.y() - size.height() / 2), size);
       if (!QRectF(p.plot->axisRect()->rect()).contains(rect)) return 1'000'000;
       int count = 0;
-      if (const ResponseCurve* curve = p.curve())
-        for (std::size_t k = 0; k < curve->omega.size(); ++k)
+      for (const ResponseCurve* curve : {p.curve(), static_cast<const ResponseCurve*>(&p.earlierCurve)})
+        for (std::size_t k = 0; curve && k < curve->omega.size(); ++k)
           count += rect.contains(p.plot->xAxis->coordToPixel(curve->omega[k] * frequencyFactor()),
                                  p.plot->yAxis->coordToPixel(curve->amplitude[k] * p.unit.perMetre));
       return count;

@@ -149,6 +149,10 @@ void MainWindow::connectParts() {
                        [work = std::move(work)](base::ExecutionContext&, const jobs::Publish&) { return work(); }});
   });
   connect(&document_, &document::Document::editingChanged, this, &MainWindow::refreshActions);
+  connect(&sceneJobs_, &jobs::JobRunner::finished, this,
+          [this](jobs::JobRunner::Id, const QString&, jobs::JobOutcome outcome, const QString& sentence) {
+            if (outcome == jobs::JobOutcome::failed) report(base::Severity::warning, sentence);
+          });
   connect(gallery_, &Gallery::sceneChosen, this, [this](const QString& file) { openFile(file, true); });
   connect(gallery_, &Gallery::openRequested, this, &MainWindow::chooseFile);
   connect(tree_, &panels::SceneTree::studyActivated, this, [this](const std::string& name) { session_.run({name}); });
@@ -177,18 +181,14 @@ void MainWindow::openFile(const QString& file, bool run) {
   job.topic = openTopic;
   job.title = tr("Open %1").arg(QFileInfo(file).fileName());
   job.work = [this, file, run](base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
-    try {
-      auto loaded = document::loadScene(file);
-      if (context.cancelRequested()) return {};
-      return [this, file, run, loaded = std::move(loaded)] {
-        keepUnsaved();
-        document_.adopt(loaded, file);
-        recent_.add(file);
-        if (run) session_.runAll();
-      };
-    } catch (const std::exception& error) {
-      return [this, sentence = QString::fromStdString(error.what())] { report(base::Severity::warning, sentence); };
-    }
+    auto loaded = document::loadScene(file);
+    if (context.cancelRequested()) return {};
+    return [this, file, run, loaded = std::move(loaded)] {
+      keepUnsaved();
+      document_.adopt(loaded, file);
+      recent_.add(file);
+      if (run) session_.runAll();
+    };
   };
   sceneJobs_.submit(std::move(job));
 }

@@ -106,6 +106,7 @@ void TestMainWindow::theMainJob() {
   QVERIFY(row);
   panels::ParameterSlider* slider = row->slider();
   const QPoint start = slider->handlePosition();
+  const QPoint place = slider->mapTo(window_.get(), QPoint());
   QTest::mousePress(slider, Qt::LeftButton, {}, start);
   for (int i = 1; i <= 3; ++i) QTest::mouseMove(slider, start - QPoint(i, 0));
   // While it is dragged: nothing is in the undo stack yet, and the prediction stands in viewport, plot and panel.
@@ -116,6 +117,8 @@ void TestMainWindow::theMainJob() {
   QCOMPARE(marker->amplitude, *session.predictedAmplitude());
   QVERIFY(std::abs(marker->amplitude - solvedBefore) > 1e-6 * solvedBefore);
   QVERIFY(window_->parameters().summary().contains("predicted"));
+  QCoreApplication::processEvents();
+  QCOMPARE(slider->mapTo(window_.get(), QPoint()), place);  // nothing moves away under the hand
   QTest::mouseRelease(slider, Qt::LeftButton, {}, start - QPoint(3, 0));
 
   // Released: one step, and the prediction stays until the update.
