@@ -1,10 +1,10 @@
 #include "core/harmonic/harmonic_balance_problem.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "core/base/stopwatch.hpp"
 #include "core/harmonic/harmonic_jacobian.hpp"
 
 namespace pliant::harmonic {
@@ -40,10 +40,6 @@ Matrix scaledLoads(const Matrix& coefficients, double fraction) {
 }
 
 double sampleAngle(int sample, int samples) { return 2 * std::numbers::pi * sample / samples; }
-
-double secondsSince(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 }  // namespace
 
@@ -198,7 +194,7 @@ void HarmonicBalanceProblem::samplePositions(const Vector& z, double fraction, M
 void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian, const StressSource* stresses) const {
   const Structure& s = *structure_;
   Workspace& w = *workspace_;
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch watch;
   samplePositions(z, driveFraction_, w.positions);
   if (stresses) {
     samplePositions(stresses->from, stresses->fromFraction, w.stresses.from);
@@ -206,7 +202,7 @@ void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian, const S
   }
   s.assembler.evaluate(w.positions, w.gradient, withHessian ? &w.hessian : nullptr, stresses ? &w.stresses : nullptr);
   ++w.cost.evaluations;
-  w.cost.evaluationSeconds += secondsSince(begin);
+  w.cost.evaluationSeconds += watch.seconds();
 }
 
 /// Coefficients of M x over the free coordinates, driven ones included in x: (2H+1) x nFree. `massToFree` is

@@ -131,7 +131,10 @@ void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double ma
         transform_ * stiffness.block(0, firstEntry, transform_.cols(), entries);
     std::vector<double> scratch(4 * (4 * harmonics_ + 1) + 2 * harmonics_ + 2);
     double* weight = scratch.data() + 4 * (4 * harmonics_ + 1);
-    for (int i = 2; i < 2 * harmonics_ + 2; ++i) weight[i] = stiffnessDamping * omega * (i / 2);
+    for (int i = 2; i < 2 * harmonics_ + 2; ++i) {
+      const int harmonic = i / 2;
+      weight[i] = stiffnessDamping * omega * harmonic;
+    }
     for (int b = columnBlocks_[begin]; b < columnBlocks_[end]; ++b)
       writeBlock(blocks_[b], coefficients, omega, massDamping, scratch.data(), values);
   });

@@ -1,9 +1,9 @@
 #include "core/harmonic/periodic_motion.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/base/stopwatch.hpp"
 #include "core/harmonic/jacobian_solver.hpp"
 #include "core/solvers/continuation_solver.hpp"
 #include "core/solvers/newton_solver.hpp"
@@ -62,7 +62,7 @@ class DriveRamp final : public solvers::ContinuationProblem {
 
  private:
   Vector linearize(const Vector& z, double fraction, const StressSource* stresses) {
-    const Vector derivative = driveDerivative(z, fraction);
+    Vector derivative = driveDerivative(z, fraction);
     problem_.setDriveFraction(fraction);
     Vector h;
     solver_.linearize(z, omega_, h, nullptr, stresses);
@@ -88,13 +88,13 @@ class MotionSearch {
       : problem_(problem), solver_(problem), omega_(omega), options_(options), context_(context) {}
 
   PeriodicMotion run(const Vector& start) {
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch watch;
     motion_.omega = omega_;
     bool done = false;
     if (start.size() > 0) done = newtonFrom(start, {});
     if (!done && findSteadyState()) done = newtonFrom(linearResponse(), steady_) || rampDrive();
     motion_.factorization = solver_.factorization();
-    motion_.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    motion_.report.seconds = watch.seconds();
     return std::move(motion_);
   }
 

@@ -60,8 +60,10 @@ Model randomNodes(std::mt19937& random, int dimension, int count) {
   Model model;
   model.dimension = dimension;
   model.restPositions = randomVector(random, count * dimension, 0.2);
-  for (int node = 0; node < count; ++node)
-    model.restPositions[node * dimension + node % dimension] += 1 + node / dimension;
+  for (int node = 0; node < count; ++node) {
+    const int metres = 1 + node / dimension;
+    model.restPositions[node * dimension + node % dimension] += metres;
+  }
   return model;
 }
 

@@ -202,7 +202,7 @@ void HarmonicResult::write(const std::filesystem::path& directory) const {
 }
 
 std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const std::filesystem::path& directory) {
-  const auto result = std::make_shared<HarmonicResult>();
+  auto result = std::make_shared<HarmonicResult>();
   const std::string text = readTextFile(directory / "summary.json");
   locate((directory / "summary.json").string(), [&] {
     try {

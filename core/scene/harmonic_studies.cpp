@@ -1,21 +1,17 @@
 #include "core/scene/harmonic_studies.hpp"
 
-#include <chrono>
-
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/scene/json_text.hpp"
 
 namespace pliant::scene {
 
 using base::InputError;
-using Clock = std::chrono::steady_clock;
 
 namespace {
 
 /// Entries of ∂h/∂z beyond which factors no longer fit an ordinary machine.
 constexpr double mostJacobianEntries = 2e8;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What the studies of harmonic balance share.
 class HarmonicStudy : public Study {
@@ -49,11 +45,11 @@ class HarmonicStudy : public Study {
     return result;
   }
 
-  static void finish(HarmonicResult& result, base::SolverReport report, Clock::time_point start) {
+  static void finish(HarmonicResult& result, base::SolverReport report, const base::Stopwatch& watch) {
     result.termination = report.termination;
     result.message = report.message;
     result.report = std::move(report);
-    result.seconds = secondsSince(start);
+    result.seconds = watch.seconds();
   }
 
   std::shared_ptr<const mechanics::Model> model_;
@@ -90,7 +86,7 @@ class PeriodicMotionStudy final : public HarmonicStudy {
   using HarmonicStudy::HarmonicStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    const auto start = Clock::now();
+    const base::Stopwatch watch;
     const double omega = options_["frequency"];
     auto [problem, motion] = [&] {
       harmonic::HarmonicBalanceProblem first = makeProblem();
@@ -113,7 +109,7 @@ class PeriodicMotionStudy final : public HarmonicStudy {
     }
     if (motion.report.converged())
       result->sensitivity = std::make_shared<const harmonic::ResponseSensitivity>(*result->problem, motion);
-    finish(*result, std::move(motion.report), start);
+    finish(*result, std::move(motion.report), watch);
     if (observe) observe(result);
     return result;
   }
@@ -125,23 +121,23 @@ class FrequencyResponseStudy final : public HarmonicStudy {
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     constexpr double secondsBetweenSnapshots = 0.05;
-    const auto start = Clock::now();
-    auto lastSnapshot = start;
+    const base::Stopwatch watch;
+    base::Stopwatch sinceSnapshot;
     harmonic::HarmonicBalanceProblem problem = makeProblem();
     auto result = makeResult();
     result->isCurve = true;
     result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(problem);
     const auto onPoint = [&](const harmonic::ResponsePoint& point) {
       result->points.push_back(point);
-      if (!observe || secondsSince(lastSnapshot) < secondsBetweenSnapshots) return;
-      lastSnapshot = Clock::now();
+      if (!observe || sinceSnapshot.seconds() < secondsBetweenSnapshots) return;
+      sinceSnapshot = {};
       auto snapshot = std::make_shared<HarmonicResult>(*result);
-      snapshot->seconds = secondsSince(start);
+      snapshot->seconds = watch.seconds();
       observe(std::move(snapshot));
     };
     harmonic::FrequencyResponse response =
         harmonic::traceFrequencyResponse(problem, responseOptions(), context, onPoint);
-    finish(*result, std::move(response.report), start);
+    finish(*result, std::move(response.report), watch);
     if (observe) observe(result);
     return result;
   }

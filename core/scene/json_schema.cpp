@@ -50,7 +50,7 @@ Json objectSchema(const ParameterSpec& spec, bool hasType, bool typeRequired) {
   return result;
 }
 
-std::string describe(const ParameterSpec& spec) {
+std::string descriptionWithUnit(const ParameterSpec& spec) {
   const std::string unit = spec.kind == ValueKind::number ? base::siUnit(spec.dimension) : "";
   return spec.description + (unit.empty() ? "" : " [" + unit + "]");
 }
@@ -89,7 +89,7 @@ Json schemaOf(const ParameterSpec& spec) {
       break;
     }
   }
-  if (!spec.description.empty()) result["description"] = describe(spec);
+  if (!spec.description.empty()) result["description"] = descriptionWithUnit(spec);
   if (!spec.defaultValue.is_null()) result["default"] = spec.defaultValue;
   return result;
 }

@@ -157,9 +157,7 @@ class Builder {
     }
   }
 
-  void lockCoordinate(int node, int axis) {
-    model_.lockedCoordinates[static_cast<std::size_t>(node * dimension_ + axis)] = 1;
-  }
+  void lockCoordinate(int node, int axis) { model_.lockedCoordinates[node * dimension_ + axis] = 1; }
 
   void addDrive(const Json& entry, const std::string& pointer) {
     std::vector<int> nodes = nodesAt(entry, pointer);

@@ -1,9 +1,9 @@
 #include "core/solvers/continuation_solver.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/base/stopwatch.hpp"
 #include "core/solvers/hermite_curve.hpp"
 
 namespace pliant::solvers {
@@ -296,12 +296,12 @@ ContinuationSolver::Status ContinuationSolver::locateEvents(const Point& from, P
 base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double parameter,
                                              base::ExecutionContext& context, const PointCallback& onPoint) {
   using base::TerminationType;
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch watch;
   base::SolverReport report;
   const auto finish = [&](TerminationType termination, const char* message = "") {
     report.termination = termination;
     report.message = message;
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.seconds = watch.seconds();
     return report;
   };
   const auto emit = [&](const Point& point, double step, BranchEvent kind, int monitor) {

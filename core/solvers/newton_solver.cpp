@@ -1,7 +1,8 @@
 #include "core/solvers/newton_solver.hpp"
 
-#include <chrono>
 #include <cmath>
+
+#include "core/base/stopwatch.hpp"
 
 namespace pliant::solvers {
 
@@ -36,12 +37,12 @@ Trial tryStep(NonlinearSystem& system, const Eigen::VectorXd& x, double norm, co
 
 base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, const NewtonOptions& options,
                                base::ExecutionContext& context) {
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch watch;
   base::SolverReport report;
   const auto finish = [&](TerminationType termination, const char* message = "") {
     report.termination = termination;
     report.message = message;
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    report.seconds = watch.seconds();
     return report;
   };
 

@@ -79,7 +79,8 @@ StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssemb
   using base::TerminationType;
   const auto& free = model.dofs.freeCoordinates;
   const double size = std::max(start.cwiseAbs().maxCoeff(), 1e-300);
-  const auto potential = [&](const Vector& x) { return assembler.value(x) - force(free).dot(x(free)); };
+  const Vector load = force(free);
+  const auto potential = [&](const Vector& x) { return assembler.value(x) - load.dot(x(free)); };
   const auto unbalanced = [&](const Vector& x) -> Vector { return (assembler.gradient(x) - force)(free); };
 
   StaticEquilibrium result;
@@ -87,7 +88,7 @@ StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssemb
   x = start;
   Vector residual = unbalanced(x);
   double energy = potential(x);
-  const double scale = std::max({force(free).norm(), residual.norm(), 1e-300});
+  const double scale = std::max({load.norm(), residual.norm(), 1e-300});
   double shift = 0;  // relative to the stiffness's largest entry
   bool moved = true;
   SparseMatrix stiffness;

@@ -1,13 +1,13 @@
 /// `pliant-bench harmonic [--json FILE]`: every study of every scene in scenes/harmonic, timed, with the part of the
 /// time that its evaluations, factorisations and solves took.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/harmonic/frequency_response.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
@@ -43,9 +43,9 @@ Run run(harmonic::HarmonicBalanceProblem& problem, const Json& study) {
 
 Json rowOf(const scene::Scene& scene, const std::string& sceneName, const Json& study) {
   harmonic::HarmonicBalanceProblem problem(scene::buildModel(scene), {study["harmonics"], study["samples"]});
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch watch;
   const Run result = run(problem, study);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = watch.seconds();
   const harmonic::SolutionCost& cost = problem.cost();
   Json row;
   row["area"] = "harmonic";
