@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -41,15 +42,29 @@ void printProbes(const Json& probes) {
               << ", maximum displacement " << length(probe["maximum_displacement"]) << "\n";
 }
 
+/// How Newton's method converged: corrections that square from one to the next show that the Jacobian is right.
+void printIterations(const Json& iterations) {
+  std::cout << "  iteration    residual  correction  step\n";
+  for (const Json& record : iterations) {
+    char line[80];
+    std::snprintf(line, sizeof line, "  %9d  %10.2e  %10.2e  %4g\n", record["iteration"].get<int>(),
+                  record["residual"].get<double>(), record["correction"].get<double>(),
+                  record["step_length"].get<double>());
+    std::cout << line;
+  }
+}
+
 void printSummary(const Json& summary) {
   std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
-            << summary["newton_iterations"] << " Newton iterations, residual "
-            << base::formatQuantity(summary["residual"].get<double>(), {}) << ", "
-            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
+            << summary["newton_iterations"] << " Newton iterations, "
+            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n  residual "
+            << base::formatQuantity(summary["residual"].get<double>(), {}) << " of the driving force, last correction "
+            << base::formatQuantity(summary["correction"].get<double>(), {}) << " of the swing\n";
   if (const auto message = summary["message"].get<std::string>(); !message.empty())
     std::cout << "  " << message << "\n";
   std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
             << " unknowns\n";
+  if (summary.contains("iterations")) printIterations(summary["iterations"]);
   if (summary.contains("probes")) {
     std::cout << "  at " << frequency(summary) << "\n";
     printProbes(summary["probes"]);

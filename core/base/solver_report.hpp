@@ -17,6 +17,7 @@ struct IterationRecord {
   int iteration = 0;
   double residual = 0;    ///< norm that the solver drives to zero, in the units its documentation states
   double stepLength = 0;  ///< accepted fraction of the full step (0 for the starting point)
+  double correction = 0;  ///< how far the answer is still off, to first order, relative to its size
 };
 
 /// What every solver returns beside its answer.
@@ -28,6 +29,7 @@ struct SolverReport {
 
   bool converged() const { return termination == TerminationType::converged; }
   double residual() const { return iterations.empty() ? 0.0 : iterations.back().residual; }
+  double correction() const { return iterations.empty() ? 0.0 : iterations.back().correction; }
 };
 
 }  // namespace pliant::base

@@ -102,6 +102,7 @@ FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const 
     for (const mechanics::Probe& probe : problem.model().probes)
       point.amplitudes.push_back(amplitude(problem, point.z, probe.node));
     point.residual = at.residual;
+    point.correction = at.correction;
     point.newtonIterations = at.iterations;
     response.points.push_back(std::move(point));
     char message[80];

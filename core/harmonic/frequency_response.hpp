@@ -30,6 +30,7 @@ struct ResponsePoint {
   Vector z;              ///< coefficients
   std::vector<Amplitude> amplitudes;  ///< a probe each
   double residual = 0;                ///< ‖h‖ / forceScale
+  double correction = 0;  ///< the last one of z, relative to the swing (of the curve's start): how far z may be off
   int newtonIterations = 0;
 };
 

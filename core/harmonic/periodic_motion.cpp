@@ -134,6 +134,8 @@ class MotionSearch {
   }
 
   bool rampDrive() {
+    context_.log(
+        base::Severity::information, "Newton's method found no motion from rest; the drive is ramped up step by step.");
     DriveRamp ramp(problem_, solver_, omega_);
     solvers::ContinuationOptions continuation;
     continuation.lower = -1;  // only the end counts: the branch may turn back on its way
@@ -151,7 +153,11 @@ class MotionSearch {
         steady_, 0, context_, [&](const solvers::BranchPoint& point, solvers::BranchEvent, int) { last = point; });
     if (last.x.size() > 0) motion_.z = last.x;
     if (motion_.report.termination == TerminationType::cancelled) return true;
-    if (motion_.report.converged() && last.parameter == 1) return true;
+    if (motion_.report.converged() && last.parameter == 1) {
+      // Once more with the exact Jacobian there: the report is of Newton's method, and its factors are left behind.
+      problem_.setDriveFraction(1);
+      return newtonFrom(last.x, {});
+    }
     motion_.report.termination = motion_.report.converged() ? TerminationType::failed : motion_.report.termination;
     motion_.report.message = "No periodic motion was found, neither by Newton's method nor by ramping the drive up.";
     return false;

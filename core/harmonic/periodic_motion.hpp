@@ -15,9 +15,9 @@ struct PeriodicMotionOptions {
 
 /// One periodic solution.
 struct PeriodicMotion {
-  double omega = 0;  ///< [rad/s]
-  Vector z;          ///< coefficients, see HarmonicBalanceProblem
-  base::SolverReport report;
+  double omega = 0;           ///< [rad/s]
+  Vector z;                   ///< coefficients, see HarmonicBalanceProblem
+  base::SolverReport report;  ///< residual: ‖h‖ / forceScale; correction: relative to the swing
   /// Factors of ∂h/∂z at, or close to, the solution: what the last Newton iteration left behind. May be null.
   std::shared_ptr<const math::SparseFactorization> factorization;
 };

@@ -48,13 +48,20 @@ struct Probe {
   int node = 0;
 };
 
+/// What a spring holds a node to: a place that does not move.
+struct Tether {
+  int node = -1;
+  Vector anchor;  ///< size dimension [m]
+};
+
 /// Where the coordinates of one geometry of the scene stand, and what to draw of it.
 struct DisplayPart {
   std::string name;
   int firstNode = 0;
   int nodeCount = 0;
   std::vector<std::array<int, 3>> triangles;  ///< global node indices
-  std::vector<std::array<int, 2>> segments;   ///< springs
+  std::vector<std::array<int, 2>> segments;   ///< springs between nodes
+  std::vector<Tether> tethers;                ///< springs to fixed places
 };
 
 /// Which coordinates are unknown. A coordinate is node * dimension + axis.

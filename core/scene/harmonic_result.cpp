@@ -54,10 +54,11 @@ void addSensitivities(const HarmonicResult& result, Json& probes) {
 void addCurve(const HarmonicResult& result, Json& json) {
   Json folds = Json::array(), peaks = Json::array();
   long newtonIterations = 0;
-  double residual = 0;
+  double residual = 0, correction = 0;
   for (const ResponsePoint& point : result.points) {
     newtonIterations += point.newtonIterations;
     residual = std::max(residual, point.residual);
+    correction = std::max(correction, point.correction);
     if (point.kind == PointKind::regular) continue;
     Json entry;
     addFrequency(entry, point.omega);
@@ -84,6 +85,7 @@ void addCurve(const HarmonicResult& result, Json& json) {
   json["fold_count"] = folds.size();
   json["folds"] = folds;
   json["residual"] = residual;
+  json["correction"] = correction;
   json["newton_iterations"] = newtonIterations;
 }
 
@@ -95,10 +97,13 @@ void addMotion(const HarmonicResult& result, Json& json) {
     json["probes"] = probes;
   }
   json["residual"] = result.report.residual();
+  json["correction"] = result.report.correction();
   Json iterations = Json::array();
   for (const base::IterationRecord& record : result.report.iterations)
-    iterations.push_back(
-        {{"iteration", record.iteration}, {"residual", record.residual}, {"step_length", record.stepLength}});
+    iterations.push_back({{"iteration", record.iteration},
+                          {"residual", record.residual},
+                          {"step_length", record.stepLength},
+                          {"correction", record.correction}});
   json["newton_iterations"] = iterations.empty() ? 0 : iterations.size() - 1;
   json["iterations"] = iterations;
 }
@@ -134,6 +139,7 @@ Json HarmonicResult::summary() const {
                    {"maximum_displacement", "m"},
                    {"path_length_derivative", "m per unit of the parameter"},
                    {"residual", "relative to the driving force"},
+                   {"correction", "relative to the swing"},
                    {"seconds", "s"}};
   json["seconds"] = seconds;
   json["provenance"] = {{"version", provenance.version},      {"scene", provenance.sceneName},

@@ -19,7 +19,7 @@ using mechanics::Model;
 namespace {
 
 constexpr std::string_view axisNames = "xyz";
-constexpr std::size_t columnsBeforeProbes = 6;  ///< of response.csv
+constexpr std::size_t columnsBeforeProbes = 7;  ///< of response.csv
 constexpr std::size_t columnsBeforeCoefficients = 3;
 
 std::string_view kindName(PointKind kind) {
@@ -29,7 +29,7 @@ std::string_view kindName(PointKind kind) {
 std::string responseTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
   CsvWriter csv;
-  csv.add("point").add("kind").add("peak of").add("omega [rad/s]").add("arc length").add("residual");
+  csv.add("point").add("kind").add("peak of").add("omega [rad/s]").add("arc length").add("residual").add("correction");
   for (const auto& probe : model.probes)
     csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
   csv.add("newton iterations").endRow();
@@ -37,7 +37,7 @@ std::string responseTable(const HarmonicResult& result) {
   for (const ResponsePoint& point : result.points) {
     csv.add(index++).add(kindName(point.kind));
     csv.add(point.probe < 0 ? std::string_view() : model.probes[static_cast<std::size_t>(point.probe)].name);
-    csv.add(point.omega).add(point.arcLength).add(point.residual);
+    csv.add(point.omega).add(point.arcLength).add(point.residual).add(point.correction);
     for (const auto& amplitude : point.amplitudes) csv.add(amplitude.pathLength).add(amplitude.maximumDisplacement);
     csv.add(point.newtonIterations).endRow();
   }
@@ -145,6 +145,7 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     point.omega = csvNumber(row[3]);
     point.arcLength = csvNumber(row[4]);
     point.residual = csvNumber(row[5]);
+    point.correction = csvNumber(row[6]);
     for (std::size_t p = 0; p < probeCount; ++p)
       point.amplitudes.push_back(
           {csvNumber(row[columnsBeforeProbes + 2 * p]), csvNumber(row[columnsBeforeProbes + 2 * p + 1])});
@@ -183,7 +184,8 @@ void readSummary(HarmonicResult& result, const Json& summary) {
   result.report.seconds = result.seconds;
   if (result.isCurve) return;
   for (const Json& record : summary.at("iterations"))
-    result.report.iterations.push_back({record.at("iteration"), record.at("residual"), record.at("step_length")});
+    result.report.iterations.push_back(
+        {record.at("iteration"), record.at("residual"), record.at("step_length"), record.at("correction")});
 }
 
 }  // namespace

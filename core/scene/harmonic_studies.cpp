@@ -103,6 +103,7 @@ class PeriodicMotionStudy final : public HarmonicStudy {
       point.omega = omega;
       point.amplitudes = amplitudesOf(*result->problem, motion.z);
       point.residual = motion.report.residual();
+      point.correction = motion.report.correction();
       point.newtonIterations = std::max(0, static_cast<int>(motion.report.iterations.size()) - 1);
       point.z = motion.z;
       result->points.push_back(std::move(point));

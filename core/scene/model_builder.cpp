@@ -133,18 +133,24 @@ class Builder {
       const int from = selectNode(entry["from"], pointer + "/from", geometries_);
       const int to = selectNode(entry["to"], pointer + "/to", geometries_);
       model_.energies.push_back(mechanics::makeSpring(dimension_, from, to, restLength(restOf(from), restOf(to)), law));
-      const auto part = static_cast<std::size_t>(&geometryOf(from) - geometries_.data());
-      model_.parts[part].segments.push_back({from, to});
+      partOf(from).segments.push_back({from, to});
     } else if (type == "anchored") {
       const int node = selectNode(entry["at"], pointer + "/at", geometries_);
       const Vector anchor = toVector(entry["anchor"]);
       model_.energies.push_back(
           mechanics::makeAnchoredSpring(dimension_, node, anchor, restLength(restOf(node), anchor), law));
+      partOf(node).tethers.push_back({node, anchor});
     } else {
       const Vector direction = toVector(entry["direction"]).stableNormalized();
-      for (const int node : nodesAt(entry, pointer))
+      for (const int node : nodesAt(entry, pointer)) {
         model_.energies.push_back(mechanics::makeGroundedSpring(dimension_, node, restOf(node), direction, law));
+        partOf(node).tethers.push_back({node, restOf(node)});
+      }
     }
+  }
+
+  mechanics::DisplayPart& partOf(int node) {
+    return model_.parts[static_cast<std::size_t>(&geometryOf(node) - geometries_.data())];
   }
 
   void lock(const Json& entry, const std::string& pointer) {

@@ -21,8 +21,11 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
   keys.push_back(withDefault(
       integer("samples", "N", "Samples of a period at which forces are evaluated; at least 2 H + 1.", 3, 8192), 64));
   keys.push_back(withDefault(
-      positive(number("tolerance", "", "Residual force, relative to the driving force, at which Newton's method stops.",
-                      dimensions::none)),
+      positive(
+          number("tolerance", "",
+                 "Residual force, relative to the driving force, at which Newton's method stops. It also stops where "
+                 "the motion changes by less than 1e-10 of its swing.",
+                 dimensions::none)),
       1e-8));
   keys.push_back(withDefault(integer("maximum_iterations", "", "Newton iterations for one solution.", 1, 10'000), 40));
   keys.push_back(

@@ -54,6 +54,7 @@ BranchPoint ContinuationSolver::unscaled(const Point& point) const {
   }
   result.arcLength = point.arcLength;
   result.residual = point.residual;
+  result.correction = point.correction;
   result.iterations = point.iterations;
   return result;
 }
@@ -86,6 +87,7 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
   int corrections = 2;  // made with the factors that there are
   bool outdated = !factorized_ || (point.y - factorPoint_).norm() > reuseRadius_;
   bool settled = false;
+  point.correction = 0;
   for (point.iterations = 0;; ++point.iterations) {
     if (context_->cancelRequested()) return Status::cancelled;
     const Vector x = options_.stateScale * point.y.head(n);
@@ -120,6 +122,7 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
       contractionRate_ = contraction / std::max((point.y - factorPoint_).norm(), 1e-300);
     outdated = contraction > slowContraction && size > options_.roundingTolerance;
     previous = size;
+    point.correction = size;
     settled = size <= options_.stepTolerance;
   }
 }
@@ -305,7 +308,7 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
     return report;
   };
   const auto emit = [&](const Point& point, double step, BranchEvent kind, int monitor) {
-    report.iterations.push_back({static_cast<int>(report.iterations.size()), point.residual, step});
+    report.iterations.push_back({static_cast<int>(report.iterations.size()), point.residual, step, point.correction});
     onPoint(unscaled(point), kind, monitor);
   };
   context_ = &context;

@@ -16,8 +16,9 @@ struct BranchPoint {
   Eigen::VectorXd direction;
   double parameterDirection = 0;
   double arcLength = 0;
-  double residual = 0;  ///< ‖h‖ / residualScale
-  int iterations = 0;   ///< of the corrector
+  double residual = 0;    ///< ‖h‖ / residualScale
+  double correction = 0;  ///< size of the last correction, in the scaled measure
+  int iterations = 0;     ///< of the corrector
 };
 
 /// What is special about a point of a branch.
@@ -101,6 +102,7 @@ class ContinuationSolver {
     Vector tangent;
     double arcLength = 0;
     double residual = 0;
+    double correction = 0;
     int iterations = 0;
     Vector monitors;
     double parameter() const { return y[y.size() - 1]; }

@@ -48,7 +48,7 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
 
   Eigen::VectorXd residual = system.residual(x);
   double norm = residual.norm();
-  report.iterations.push_back({0, norm / options.residualScale, 0});
+  report.iterations.push_back({0, norm / options.residualScale, 0, 0});
   if (!std::isfinite(norm)) return finish(TerminationType::failed, "The residual is not finite at the starting point.");
 
   for (int iteration = 1;; ++iteration) {
@@ -60,6 +60,7 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
     const Eigen::VectorXd step = -system.solve(residual);
     const double stepNorm = step.norm();
     if (!std::isfinite(stepNorm)) return finish(TerminationType::failed, "The Jacobian is singular.");
+    report.iterations.back().correction = stepNorm / options.stepScale;
 
     double length = 1;
     Trial trial = tryStep(system, x, norm, step, length);
@@ -73,8 +74,9 @@ base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, cons
     }
     x = trial.x;
     norm = trial.norm;
-    report.iterations.push_back({iteration, norm / options.residualScale, length});
-    if (length == 1 && trial.correction.norm() <= options.stepTolerance * options.stepScale) {
+    const double remaining = trial.correction.norm();
+    report.iterations.push_back({iteration, norm / options.residualScale, length, remaining / options.stepScale});
+    if (length == 1 && remaining <= options.stepTolerance * options.stepScale) {
       const Eigen::VectorXd refined = x + trial.correction;
       if (const double refinedNorm = system.residual(refined).norm(); refinedNorm < norm) {
         x = refined;

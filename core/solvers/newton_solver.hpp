@@ -34,7 +34,8 @@ struct NewtonOptions {
 /// that the same Jacobian makes of the new residual (the natural monotonicity test of Deuflhard 2004, which does not
 /// depend on how the equations are scaled). A trial point where r is not finite only shortens the step. `x` is the
 /// start and the answer (the last accepted point if it did not converge). One record an iteration, with the scaled
-/// residual. Cancellation is polled in every iteration.
+/// residual and the correction ‖J⁻¹ r‖ / stepScale there (of the last one with the factors of the one before).
+/// Cancellation is polled in every iteration.
 base::SolverReport solveNewton(NonlinearSystem& system, Eigen::VectorXd& x, const NewtonOptions& options,
                                base::ExecutionContext& context);
 

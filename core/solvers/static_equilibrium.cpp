@@ -63,6 +63,10 @@ std::string describeMissingStiffness(const Model& model, const ElasticAssembler&
   const int axis = coordinate % model.dimension;
   const std::string axisName(1, "xyz"[axis]);
   std::string sentence = "Nothing holds node " + std::to_string(coordinate / model.dimension) + " along " + axisName;
+  if (loose == 0)
+    return sentence +
+           ": the structure can move there without being deformed, as a sheet turns about a single line of "
+           "nodes that holds it; drive, lock or support more of it.";
   if (loose > 1) {
     int sameAxis = -1;
     for (int i = 0; i < count; ++i)

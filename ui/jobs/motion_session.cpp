@@ -150,7 +150,7 @@ void MotionSession::showPoint(const std::string& name, int point) {
   motion.omega = found.omega;
   motion.z = found.z;
   motion.report.termination = base::TerminationType::converged;
-  motion.report.iterations.push_back({found.newtonIterations, found.residual, 0});
+  motion.report.iterations.push_back({found.newtonIterations, found.residual, 0, found.correction});
   show({result->problem, std::move(motion), *study->solvedScene, result->isCurve ? nullptr : result->sensitivity, name,
         point});
 }

@@ -38,11 +38,11 @@ double largestMassOf(const mechanics::PointMass& mass) {
 
 FigureLayout::FigureLayout(const mechanics::Model& model)
     : dimension(model.dimension), rest(toPoints(model.restPositions, model.dimension)) {
-  restExtent_ = extentOf(rest);
-  setReach(rest);
+  std::vector<mechanics::Tether> tethers;
   for (const mechanics::DisplayPart& part : model.parts) {
     triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
     springs.insert(springs.end(), part.segments.begin(), part.segments.end());
+    for (const mechanics::Tether& tether : part.tethers) tethers.push_back(tether);
   }
   for (const geometry::MeshEdge& edge : geometry::meshEdges(triangles))
     if (edge.triangles[0] < 0 || edge.triangles[1] < 0) outline.push_back(edge.nodes);
@@ -53,16 +53,16 @@ FigureLayout::FigureLayout(const mechanics::Model& model)
     for (int axis = 0; locked && axis < dimension; ++axis) locked = model.lockedCoordinates[node * dimension + axis];
     if (locked) fixedPoints.push_back(node);
   }
-  // An energy of a single node is a spring to the ground.
-  for (const auto& energy : model.energies)
-    for (int element = 0; element < energy->elementCount(); ++element) {
-      const auto coordinates = energy->elementCoordinates(element);
-      if (static_cast<int>(coordinates.size()) != dimension) continue;
-      const int fixedEnd = nodes + static_cast<int>(groundedNodes.size());
-      groundedNodes.push_back(coordinates[0] / dimension);
-      springs.push_back({groundedNodes.back(), fixedEnd});
-      fixedPoints.push_back(fixedEnd);
-    }
+  anchors.resize(3, static_cast<Eigen::Index>(tethers.size()));
+  for (std::size_t i = 0; i < tethers.size(); ++i) {
+    const int fixedEnd = nodes + static_cast<int>(i);
+    anchors.col(static_cast<Eigen::Index>(i)) = toPoints(tethers[i].anchor, dimension);
+    springs.push_back({tethers[i].node, fixedEnd});
+    fixedPoints.push_back(fixedEnd);
+  }
+  const Points atRest = pose(model.restPositions);
+  restExtent_ = extentOf(atRest);
+  setReach(atRest);
   for (const auto& drive : model.drives)
     drivenNodes.insert(drivenNodes.end(), drive->nodes().begin(), drive->nodes().end());
   for (const mechanics::PointMass& mass : model.pointMasses)
@@ -81,10 +81,8 @@ void FigureLayout::setReach(const Points& reach) {
 }
 
 Points FigureLayout::pose(const Eigen::VectorXd& positions) const {
-  Points result(3, rest.cols() + static_cast<Eigen::Index>(groundedNodes.size()));
-  result.leftCols(rest.cols()) = toPoints(positions, dimension);
-  for (std::size_t i = 0; i < groundedNodes.size(); ++i)
-    result.col(rest.cols() + static_cast<Eigen::Index>(i)) = rest.col(groundedNodes[i]);
+  Points result(3, rest.cols() + anchors.cols());
+  result << toPoints(positions, dimension), anchors;
   return result;
 }
 

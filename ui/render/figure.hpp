@@ -27,7 +27,7 @@ struct FigureLayout {
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::array<int, 2>> outline;  ///< edges of one triangle
   std::vector<std::array<int, 2>> springs;  ///< columns of pose()
-  std::vector<int> groundedNodes;
+  Points anchors{3, 0};                     ///< fixed ends of springs
   std::vector<int> massNodes;
   std::vector<int> drivenNodes;
   std::vector<int> fixedPoints;  ///< columns of pose(): locked nodes and fixed ends of springs

@@ -10,13 +10,13 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/mechanics/strain.hpp"
 #include "ui/render/camera_control.hpp"
 #include "ui/render/color_map.hpp"
 #include "ui/render/figure.hpp"
 #include "ui/render/gizmo.hpp"
 #include "ui/render/legend.hpp"
 #include "ui/render/ring.hpp"
-#include "ui/render/stretch_field.hpp"
 #include "ui/render/vtk_text.hpp"
 
 namespace pliant::render {
@@ -79,7 +79,6 @@ struct MotionView::Parts {
 
   std::shared_ptr<const mechanics::Model> model;
   FigureLayout layout;
-  StretchField stretch;
   std::shared_ptr<const HarmonicBalanceProblem> problem;
   Vector z;
   Matrix trajectories;
@@ -151,19 +150,26 @@ struct MotionView::Parts {
 
   bool showsField() const { return fieldVisible && problem && !layout.triangles.empty(); }
 
+  /// Largest principal stretch of each triangle, less 1.
+  Vector stretch(const Vector& positions) const {
+    return mechanics::principalStretches(layout.dimension, model->restPositions, positions, layout.triangles).array() -
+           1.0;
+  }
+
   /// Everything that depends on the solved motion but not on τ.
   void showMotion() {
     trajectories = problem ? problem->trajectories(z) : Matrix();
-    Points reach = layout.rest;
+    Points reach = model ? layout.pose(model->restPositions) : Points(3, 0);
     leastStretch = 0;
     mostStretch = 0;
     if (problem) {
-      reach.resize(3, trajectories.rows() * layout.rest.cols());
+      reach.resize(3, trajectories.rows() * layout.rest.cols() + layout.anchors.cols());
+      reach.rightCols(layout.anchors.cols()) = layout.anchors;
       for (Eigen::Index i = 0; i < trajectories.rows(); ++i) {
         const Points sample = toPoints(trajectories.row(i).transpose(), layout.dimension);
         reach.middleCols(i * sample.cols(), sample.cols()) = sample;
         if (layout.triangles.empty()) continue;
-        const Vector values = stretch.values(sample);
+        const Vector values = stretch(trajectories.row(i).transpose());
         leastStretch = i == 0 ? values.minCoeff() : std::min(leastStretch, values.minCoeff());
         mostStretch = i == 0 ? values.maxCoeff() : std::max(mostStretch, values.maxCoeff());
       }
@@ -204,9 +210,10 @@ struct MotionView::Parts {
     predicted.setVisible(problem && prediction);
     probeDots.actor()->SetVisibility(problem != nullptr);
     if (!model) return;
-    pose = layout.pose(problem ? problem->configurationAt(z, tau) : model->restPositions);
+    const Vector positions = problem ? problem->configurationAt(z, tau) : model->restPositions;
+    pose = layout.pose(positions);
     solved.setPose(pose);
-    const Vector values = showsField() ? stretch.values(pose) : Vector();
+    const Vector values = showsField() ? stretch(positions) : Vector();
     solved.setField(showsField() ? &values : nullptr, table);
     probeDots.setNodes(layout.probeNodes);
     probeDots.setPoints(pose);
@@ -242,7 +249,6 @@ void MotionView::setModel(std::shared_ptr<const mechanics::Model> model) {
   p.selected.reset();
   p.stale = false;
   p.layout = p.model ? FigureLayout(*p.model) : FigureLayout();
-  p.stretch = StretchField(p.layout.rest, p.layout.triangles);
   p.showMotion();
 }
 

@@ -108,6 +108,10 @@ class TestModelBuilder : public QObject {
     const Vector gradient = mechanics::ElasticAssembler(model).gradient(Eigen::Vector2d(e, 2));
     QVERIFY(std::abs(gradient[0] - (e + 2 * e * e + 3 * e * e * e + 5 * e)) < 1e-14);
     QVERIFY(std::abs(gradient[1] - (-5 * e - 7 * (4 - 3))) < 1e-14);
+    const auto& tethers = model->parts[0].tethers;
+    QCOMPARE(tethers.size(), 2u);
+    QVERIFY(tethers[0].node == 0 && tethers[0].anchor[0] == 0);
+    QVERIFY(tethers[1].node == 1 && tethers[1].anchor[0] == 6);
   }
 
   void refuses_data() {

@@ -1,0 +1,58 @@
+#include <QtTest>
+#include <algorithm>
+#include <filesystem>
+
+#include "core/scene/expected_values.hpp"
+#include "core/scene/model_builder.hpp"
+#include "core/scene/study.hpp"
+
+using namespace pliant;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> sceneFiles() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(PLIANT_SOURCE_DIR "/scenes"))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+/// Every scene that is shipped does what it promises. The expected values of a scene come from a closed form or from
+/// more harmonics and samples than the scene itself uses.
+class TestShippedScenes : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void studiesGiveTheExpectedValues_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("study");
+    for (const fs::path& file : sceneFiles())
+      for (const std::string& study : scene::studyNames(scene::Scene::load(file)))
+        QTest::addRow("%s %s", file.filename().c_str(), study.c_str())
+            << QString::fromStdString(file.string()) << QString::fromStdString(study);
+  }
+
+  void studiesGiveTheExpectedValues() {
+    QFETCH(QString, file);
+    QFETCH(QString, study);
+    const scene::Scene scene = scene::Scene::load(file.toStdString());
+    const std::string name = study.toStdString();
+    base::ExecutionContext context;
+    const auto result = scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), name)->run(context);
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    const auto values = scene::compareWithExpected(scene, name, result->summary());
+    QVERIFY(!values.empty());
+    for (const scene::ExpectedValue& value : values)
+      QVERIFY2(value.holds(), qPrintable(QString("%1 is %2, expected %3")
+                                             .arg(QString::fromStdString(value.pointer))
+                                             .arg(value.found, 0, 'g', 12)
+                                             .arg(value.expected, 0, 'g', 12)));
+  }
+};
+
+QTEST_GUILESS_MAIN(TestShippedScenes)
+#include "test_shipped_scenes.moc"
