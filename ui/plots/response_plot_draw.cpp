@@ -2,18 +2,25 @@
 #include <cmath>
 
 #include "ui/plots/response_plot_parts.hpp"
+#include "ui/plots/smooth_path.hpp"
 
 namespace pliant::plots {
 
 namespace {
 
+constexpr int pointsBetween = 7;       // two computed ones
+constexpr qsizetype manyPoints = 500;  // smooth as they are
+
 void fill(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre) {
-  const int count = static_cast<int>(curve.omega.size());
-  QVector<double> t(count), keys(count), values(count);
-  for (int i = 0; i < count; ++i) {
-    t[i] = i;
-    keys[i] = curve.omega[i] * perOmega;
-    values[i] = curve.amplitude[i] * perMetre;
+  QVector<QPointF> points;
+  for (std::size_t i = 0; i < curve.omega.size(); ++i)
+    points.push_back({curve.omega[i] * perOmega, curve.amplitude[i] * perMetre});
+  const QVector<QPointF> path = smoothPath(points, points.size() > manyPoints ? 0 : pointsBetween);
+  QVector<double> t(path.size()), keys(path.size()), values(path.size());
+  for (qsizetype i = 0; i < path.size(); ++i) {
+    t[i] = static_cast<double>(i);
+    keys[i] = path[i].x();
+    values[i] = path[i].y();
   }
   into->setData(t, keys, values, true);
 }

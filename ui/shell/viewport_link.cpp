@@ -76,10 +76,11 @@ void ViewportLink::showPrediction() {
 QString ViewportLink::caption() const {
   const jobs::ShownMotion& shown = *session_.shown();
   QString text = document_.title();
-  text += QStringLiteral("\nω = %1,  H = %2,  residual %3")
+  text += QStringLiteral("\nω = %1,  H = %2,  residual %3,  correction %4")
               .arg(plots::formatFrequency(shown.motion.omega, false))
               .arg(shown.problem->basis().harmonics())
-              .arg(shown.motion.report.residual(), 0, 'g', 2);
+              .arg(shown.motion.report.residual(), 0, 'g', 2)
+              .arg(shown.motion.report.correction(), 0, 'g', 2);
   if (session_.prediction())
     text += tr("\npredicted (hatched): %1").arg(plots::formatLength(session_.predictedAmplitude().value_or(0)));
   else if (session_.isStale())
