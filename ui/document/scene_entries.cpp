@@ -227,6 +227,19 @@ Json withReferencesWritten(const scene::Scene& scene, const std::string& list) {
   return written;
 }
 
+Json withoutEntry(const scene::Scene& scene, const std::string& list, std::size_t index) {
+  Json written = scene.json();
+  if (list == "studies" && written.contains("expected")) {
+    Json& expected = written["expected"];
+    const Json name = written[list][index]["name"];
+    expected.erase(std::remove_if(expected.begin(), expected.end(),
+                                  [&](const Json& value) { return value.value("study", Json()) == name; }),
+                   expected.end());
+  }
+  written[list].erase(index);
+  return written;
+}
+
 Json copiedEntry(const Json& list, std::size_t index) {
   Json entry = list.at(index);
   if (!entry.is_object() || !entry.contains("name")) return entry;

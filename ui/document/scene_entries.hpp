@@ -25,6 +25,10 @@ void addBodyOf(scene::Json& written, const scene::Json& geometry, int dimension)
 /// a second entry would make ambiguous.
 scene::Json withReferencesWritten(const scene::Scene& scene, const std::string& list);
 
+/// The scene as it is written, without the entry at `index` of `list` and, if that is a study, without the values that
+/// are expected of it.
+scene::Json withoutEntry(const scene::Scene& scene, const std::string& list, std::size_t index);
+
 /// A copy of the entry at `index` of a list, with a name that is free.
 scene::Json copiedEntry(const scene::Json& list, std::size_t index);
 

@@ -193,11 +193,15 @@ void SceneTree::duplicateEntry(const std::string& pointer) {
 
 void SceneTree::removeEntry(const std::string& pointer) {
   const auto [list, index] = listAndIndex(pointer);
-  Json entries = document_.scene().json().at(Json::json_pointer(list));
-  const QString name = entryName(entries[index], static_cast<int>(index));
-  entries.erase(index);
+  const Json& before = document_.scene().json();
+  const QString name = entryName(before.at(Json::json_pointer(list))[index], static_cast<int>(index));
+  const Json after = document::withoutEntry(document_.scene(), list.substr(1), index);
+  // An edit of one list is checked more quickly than one of the whole scene.
+  const bool alone = after.value("expected", Json()) == before.value("expected", Json());
   awaited_ = list;
-  if (!document_.setValue(list, entries, tr("Remove %1").arg(name))) awaited_.clear();
+  if (!document_.setValue(
+          alone ? list : std::string(), alone ? after.at(list.substr(1)) : after, tr("Remove %1").arg(name)))
+    awaited_.clear();
 }
 
 void SceneTree::addActionsFor(QMenu& menu, const std::string& list) {

@@ -33,7 +33,7 @@ double distanceOfChords(const QVector<QPointF>& points) {
 class TestSmoothPath : public QObject {
   Q_OBJECT
 
- private slots:
+ private Q_SLOTS:
   void passesThroughThePoints() {
     const auto points = halfEllipse(9);
     const auto path = smoothPath(points, 4);

@@ -8,7 +8,7 @@ using namespace pliant;
 class TestFigure : public QObject {
   Q_OBJECT
 
- private slots:
+ private Q_SLOTS:
   /// A spring to a fixed place is drawn from its node, wherever that is, to the place.
   void tetherEndsAtItsAnchor() {
     mechanics::Model model;
