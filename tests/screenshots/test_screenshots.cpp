@@ -201,7 +201,7 @@ void TestScreenshots::thePictureOfTheReadme() {
   if (!qEnvironmentVariableIntValue("PLIANT_RECORD_README")) QSKIP("the picture of the README is not asked for");
   const auto window = makeSolvedWindow("fork.json", {1440, 900}, 3.6);
   QVERIFY(window);
-  dragFirstMass(*window, 20);
+  dragFirstMass(*window, 10);
   QVERIFY(window->session().prediction().has_value());
   const QString file = QStringLiteral(PLIANT_SOURCE_DIR "/docs/window.png");
   QVERIFY(QDir().mkpath(QFileInfo(file).absolutePath()));
