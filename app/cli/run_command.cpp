@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 
@@ -34,6 +35,25 @@ std::string length(const Json& value) { return base::formatQuantity(value.get<do
 std::string frequency(const Json& entry) {
   return base::formatQuantity(entry["frequency"].get<double>(), dimensions::angularFrequency) + " (" +
          base::formatQuantity(entry["frequency_hz"].get<double>(), {}) + " Hz)";
+}
+
+/// All settings applied, in any order that the scene allows: more harmonics may need more samples first.
+scene::Scene applySettings(scene::Scene scene, std::vector<std::string> settings) {
+  while (!settings.empty()) {
+    std::vector<std::string> refused;
+    std::exception_ptr reason;
+    for (const std::string& setting : settings) {
+      try {
+        scene = applySetting(scene, setting);
+      } catch (const base::InputError&) {
+        refused.push_back(setting);
+        if (!reason) reason = std::current_exception();
+      }
+    }
+    if (refused.size() == settings.size()) std::rethrow_exception(reason);
+    settings = std::move(refused);
+  }
+  return scene;
 }
 
 void printProbes(const Json& probes) {
@@ -95,8 +115,7 @@ void printExpected(const std::vector<scene::ExpectedValue>& values) {
 
 ExitStatus run(const RunOptions& options) {
   math::setThreadCount(options.threads);
-  scene::Scene scene = scene::Scene::load(options.scene);
-  for (const std::string& setting : options.settings) scene = applySetting(scene, setting);
+  const scene::Scene scene = applySettings(scene::Scene::load(options.scene), options.settings);
   const auto model = scene::buildModel(scene);
   const std::vector<std::string> names = options.studies.empty() ? scene::studyNames(scene) : options.studies;
   if (names.empty()) throw base::InputError(scene.name() + ": /studies", "The scene has no studies to run.");

@@ -78,6 +78,20 @@ ContinuationSolver::Vector ContinuationSolver::solveBordered(const Vector& f, do
   return dy;
 }
 
+/// ∂h/∂x and ∂h/∂λ at a point that a linearisation led to: in the beginning that at `from`, from where it was predicted
+/// `step` away (if not null), later the one whose factors made the corrections.
+ContinuationSolver::Vector ContinuationSolver::linearizeForetold(const Point& point, const Point* from, double step) {
+  const Eigen::Index n = point.y.size() - 1;
+  const Vector x = options_.stateScale * point.y.head(n);
+  const double parameter = options_.parameterScale * point.y[n];
+  if (point.iterations == 0 && from) return problem_.linearizePrediction(x, parameter, unscaled(*from), step);
+  if (point.iterations == 0 || !factorized_) return problem_.linearize(x, parameter);
+  Point last;
+  last.y = factorPoint_;
+  last.tangent = point.y - factorPoint_;
+  return problem_.linearizePrediction(x, parameter, unscaled(last), 1);
+}
+
 /// Moves `point.y` within the plane normal to `normal` until h vanishes. `point.y` was predicted `step` beyond `from`,
 /// if that is not null.
 ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vector& normal, const Point* from,
@@ -98,9 +112,7 @@ ContinuationSolver::Status ContinuationSolver::correct(Point& point, const Vecto
     if (point.residual <= options_.tolerance || settled) return Status::converged;
     if (point.iterations == maximumCorrections) return Status::failed;
     if (outdated) {
-      parameterDerivative_ = from && point.iterations == 0
-                                 ? problem_.linearizePrediction(x, parameter, unscaled(*from), step)
-                                 : problem_.linearize(x, parameter);
+      parameterDerivative_ = linearizeForetold(point, from, step);
       if (!refactorize(point.y)) return Status::failed;
       outdated = false;
       corrections = 0;

@@ -38,8 +38,8 @@ class ContinuationProblem {
   virtual double residualScale(double parameter) = 0;
   /// Evaluates ∂h/∂x at a point, for multiply() and factorize(), and returns ∂h/∂λ.
   virtual Eigen::VectorXd linearize(const Eigen::VectorXd& x, double parameter) = 0;
-  /// The same at a prediction that lies `step` along the branch beyond the solution `from` (before it, if negative).
-  /// Any matrix that is near ∂h/∂x of the solution predicted will do.
+  /// The same at a point that was predicted by linearisation at `from`: it lies about `step` times the direction of
+  /// `from` away from it. Any matrix that is near ∂h/∂x of the solution predicted will do.
   virtual Eigen::VectorXd linearizePrediction(const Eigen::VectorXd& x, double parameter, const BranchPoint& /*from*/,
                                               double /*step*/) {
     return linearize(x, parameter);
@@ -118,6 +118,7 @@ class ContinuationSolver {
   Status findTangent(Point& point, const Vector& normal, double tolerance);
   Status solveAt(Point& point, const Vector& predicted, const Vector& normal, const Point* from, double step,
                  double tangentTolerance);
+  Vector linearizeForetold(const Point& point, const Point* from, double step);
   bool refactorize(const Vector& y);
   Vector solveBordered(const Vector& f, double g, const Vector& normal);
 

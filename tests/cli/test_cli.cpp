@@ -105,6 +105,15 @@ class TestCli : public QObject {
     QCOMPARE(summary("motion")["provenance"]["threads"].get<int>(), 1);
   }
 
+  void settingsMayComeInAnyOrder() {
+    // 40 harmonics need more samples than the scene has.
+    const auto outcome = runCli({"run", duffing_, "--out", file("results"), "--study", "motion", "--set",
+                                 "/studies/0/harmonics=40", "--set", "/studies/0/samples=128"});
+    QVERIFY2(outcome.status == 0, qPrintable(outcome.errors));
+    QCOMPARE(summary("motion")["harmonics"].get<int>(), 40);
+    QVERIFY(outcome.output.contains("last correction"));
+  }
+
   void anUnconvergedStudyIsWrittenAndSaysSo() {
     const auto outcome = runCli(
         {"run", duffing_, "--out", file("results"), "--study", "response", "--set", "/studies/1/maximum_points=5"});
