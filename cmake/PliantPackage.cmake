@@ -13,8 +13,7 @@ endforeach()
 
 set(data ${CMAKE_INSTALL_DATADIR}/pliant)
 install(DIRECTORY scenes DESTINATION ${data})
-install(DIRECTORY resources/ DESTINATION ${data}/resources FILES_MATCHING PATTERN "*.schema.json"
-        PATTERN desktop EXCLUDE PATTERN man EXCLUDE)
+install(FILES resources/pliant-scene.schema.json DESTINATION ${data}/resources)
 
 set(id org.pliant.Pliant)
 install(FILES resources/desktop/${id}.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
