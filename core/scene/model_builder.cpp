@@ -81,7 +81,8 @@ class Builder {
     for (const PlacedGeometry& geometry : geometries_) {
       model_.restPositions.segment(geometry.firstNode * dimension_, geometry.nodeCount() * dimension_) =
           geometry.mesh.points.topRows(dimension_).reshaped();
-      model_.parts.push_back({geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.globalTriangles(), {}});
+      model_.parts.push_back(
+          {geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.globalTriangles(), {}, {}});
     }
     model_.lockedCoordinates.assign(static_cast<std::size_t>(model_.restPositions.size()), 0);
   }
