@@ -73,8 +73,8 @@ struct ContinuationOptions {
   int maximumPoints = 2000;
 };
 
-/// Follows a branch by pseudo-arclength continuation: cubic Hermite extrapolation of the last two points and their
-/// tangents as predictor, a corrector in the plane normal to it, steps of about equal turning of the tangent.
+/// Follows a branch by pseudo-arclength continuation: Hermite extrapolation (quintic) of the last three points and
+/// their tangents as predictor, a corrector in the plane normal to it, steps of about equal turning of the tangent.
 ///
 /// Factorisations dominate the cost, so the factors of an earlier point serve as long as corrections shrink quickly
 /// with them; every residual is exact, so only the rate of convergence depends on them. Bordered systems are solved by
