@@ -49,6 +49,14 @@ void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& 
       refuse(what + " names node " + std::to_string(node) + ", but there are " + std::to_string(nodeCount) + " nodes");
 }
 
+void requireFactors(std::span<const double> factors, std::size_t elementCount) {
+  if (!factors.empty() && factors.size() != elementCount)
+    refuse("there must be a factor for each of the " + std::to_string(elementCount) + " elements, but there are " +
+           std::to_string(factors.size()));
+  for (std::size_t e = 0; e < factors.size(); ++e)
+    requirePositive(factors[e], "the factor of element " + std::to_string(e));
+}
+
 void requireSignal(const PeriodicSignal& signal, const std::string& what) {
   for (const PeriodicSignal::Term& term : signal.terms) {
     if (term.order < 0)

@@ -18,6 +18,8 @@ void requireVector(const Vector& value, int size, const std::string& what);
 void requireDimension(int dimension, const std::string& what, int least = 1);
 /// Every index in [0, nodeCount).
 void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& what);
+/// None, or one for each element, above 0.
+void requireFactors(std::span<const double> factors, std::size_t elementCount);
 /// Orders of at least 0, finite amplitudes and phases.
 void requireSignal(const PeriodicSignal& signal, const std::string& what);
 

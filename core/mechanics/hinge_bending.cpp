@@ -24,12 +24,18 @@ double dihedralAngle(const Vector& x, const std::array<int, 4>& nodes) {
   return std::atan2(-e.norm() * n1.dot(v), n1.dot(n2));
 }
 
+double bendingFactor(const TriangleFactors& factors, int triangle) {
+  const auto t = static_cast<std::size_t>(triangle);
+  return factorOf(factors.stiffness, t) * std::pow(factorOf(factors.thickness, t), 3);
+}
+
 }  // namespace
 
 std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, const Triangles& triangles,
-                                               const ShellMaterial& material) {
+                                               const ShellMaterial& material, const TriangleFactors& factors) {
   requireElasticMaterial(material);
   requireTriangles(3, restPositions, triangles);
+  requireTriangleFactors(factors, triangles);
   const double rigidity = material.youngModulus * std::pow(material.thickness, 3) /
                           (12 * (1 - material.poissonRatio * material.poissonRatio));
   std::vector<HingeElement> elements;
@@ -41,9 +47,11 @@ std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, cons
                                       cornerOpposite(triangles[right], edge.nodes)};
     const double squaredLength =
         (restPositions.segment<3>(3 * nodes[1]) - restPositions.segment<3>(3 * nodes[0])).squaredNorm();
-    const double area =
-        triangleArea(3, restPositions, triangles[left]) + triangleArea(3, restPositions, triangles[right]);
-    elements.push_back({0.5 * rigidity * squaredLength / area, dihedralAngle(restPositions, nodes)});
+    const double areaLeft = triangleArea(3, restPositions, triangles[left]);
+    const double areaRight = triangleArea(3, restPositions, triangles[right]);
+    const double area = areaLeft + areaRight;
+    const double factor = (areaLeft * bendingFactor(factors, left) + areaRight * bendingFactor(factors, right)) / area;
+    elements.push_back({0.5 * factor * rigidity * squaredLength / area, dihedralAngle(restPositions, nodes)});
     auto& indices = coordinates.emplace_back();
     for (int i = 0; i < 12; ++i) indices[i] = nodes[i / 3] * 3 + i % 3;
   }

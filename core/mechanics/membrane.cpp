@@ -10,7 +10,7 @@ namespace {
 
 template <int dimension>
 MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int, 3>& triangle,
-                                       const ShellMaterial& material) {
+                                       const ShellMaterial& material, double factor) {
   const auto point = [&](int corner) { return rest.segment<dimension>(triangle[corner] * dimension); };
   const Eigen::Matrix<double, dimension, 1> e1 = point(1) - point(0), e2 = point(2) - point(0);
 
@@ -31,7 +31,7 @@ MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int,
   const double nu = material.poissonRatio;
   Eigen::Matrix3d law;  // E = ½ (ε₁₁, ε₂₂, ε₁₂) law (...)ᵀ
   law << 1, nu, 0, nu, 1, 0, 0, 0, 2 * (1 - nu);
-  law *= area * material.thickness * material.youngModulus / (1 - nu * nu);
+  law *= factor * area * material.thickness * material.youngModulus / (1 - nu * nu);
   const Eigen::Matrix3d q = strain.transpose() * law * strain;
 
   MembraneElement<dimension> element;
@@ -43,11 +43,13 @@ MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int,
 
 template <int dimension>
 std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles& triangles,
-                                             const ShellMaterial& material) {
+                                             const ShellMaterial& material, const TriangleFactors& factors) {
   std::vector<MembraneElement<dimension>> elements;
   std::vector<std::array<int, 3 * dimension>> coordinates;
-  for (const auto& triangle : triangles) {
-    elements.push_back(makeElement<dimension>(rest, triangle, material));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& triangle = triangles[t];
+    const double factor = factorOf(factors.stiffness, t) * factorOf(factors.thickness, t);
+    elements.push_back(makeElement<dimension>(rest, triangle, material, factor));
     auto& indices = coordinates.emplace_back();
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < dimension; ++axis)
@@ -59,11 +61,12 @@ std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles
 }  // namespace
 
 std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPositions, const Triangles& triangles,
-                                           const ShellMaterial& material) {
+                                           const ShellMaterial& material, const TriangleFactors& factors) {
   requireElasticMaterial(material);
   requireTriangles(dimension, restPositions, triangles);
-  return dimension == 2 ? makeMembraneOf<2>(restPositions, triangles, material)
-                        : makeMembraneOf<3>(restPositions, triangles, material);
+  requireTriangleFactors(factors, triangles);
+  return dimension == 2 ? makeMembraneOf<2>(restPositions, triangles, material, factors)
+                        : makeMembraneOf<3>(restPositions, triangles, material, factors);
 }
 
 }  // namespace pliant::mechanics

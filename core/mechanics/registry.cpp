@@ -1,8 +1,10 @@
 #include "core/mechanics/registry.hpp"
 
 #include "core/geometry/mesh_generators.hpp"
+#include "core/geometry/tet_mesh.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
 #include "core/mechanics/shell.hpp"
+#include "core/mechanics/solid.hpp"
 #include "core/mechanics/spring.hpp"
 
 namespace pliant::mechanics {
@@ -51,6 +53,20 @@ Model hingeExample(std::mt19937& random, int) {
   Triangles triangles;
   Model model = randomPatch(random, 3, triangles);
   model.energies.push_back(makeHingeBending(model.restPositions, triangles, randomMaterial(random)));
+  model.finish();
+  return model;
+}
+
+Model solidExample(std::mt19937& random, int) {
+  const geometry::TetMesh mesh =
+      geometry::makeBlocks({{"", {0, 0, 0}, {0.2, 0.1, 0.1}}}, Eigen::Vector3d::Constant(0.1));
+  Model model;
+  model.restPositions = mesh.points.reshaped();
+  model.restPositions += randomVector(random, model.coordinateCount(), 0.02);
+  std::vector<double> factors(mesh.tetrahedra.size());
+  for (double& factor : factors) factor = uniform(random, 0.5, 2);
+  const SolidMaterial material{uniform(random, 1e5, 1e7), uniform(random, -0.3, 0.45), uniform(random, 500, 2000)};
+  model.energies.push_back(makeSolid(model.restPositions, mesh.tetrahedra, material, factors));
   model.finish();
   return model;
 }
@@ -118,6 +134,7 @@ const std::vector<EnergyKind>& energyKinds() {
       list.push_back(kind("grounded_spring", dimension, groundedSpringExample));
     }
     list.push_back(kind("hinge_bending", 3, hingeExample));
+    list.push_back(kind("solid", 3, solidExample));
     return list;
   }();
   return kinds;

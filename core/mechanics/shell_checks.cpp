@@ -33,6 +33,11 @@ void requireTriangles(int dimension, const Vector& restPositions, const Triangle
   }
 }
 
+void requireTriangleFactors(const TriangleFactors& factors, const Triangles& triangles) {
+  requireFactors(factors.stiffness, triangles.size());
+  requireFactors(factors.thickness, triangles.size());
+}
+
 double triangleArea(int dimension, const Vector& restPositions, const std::array<int, 3>& triangle) {
   const auto point = [&](int corner) { return restPositions.segment(triangle[corner] * dimension, dimension); };
   const Vector e1 = point(1) - point(0), e2 = point(2) - point(0);

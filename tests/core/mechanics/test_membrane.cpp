@@ -32,6 +32,7 @@ class TestMembrane : public QObject {
   void uniformStrainOnAnIrregularMesh_data();
   void uniformStrainOnAnIrregularMesh();
   void uniaxialTension();
+  void factorsScaleTriangles();
   void badInputIsRefused();
   void principalStretchesOfKnownDeformations();
 };
@@ -100,6 +101,51 @@ void TestMembrane::uniaxialTension() {
   QVERIFY((stretches.array() - stretch).abs().maxCoeff() <= 1e-10);
 }
 
+void TestMembrane::factorsScaleTriangles() {
+  const geometry::SurfaceMesh mesh = irregularGrid(length, width, 4, 3);
+  Eigen::Matrix2d gradient;
+  gradient << 1.3, 0.4, -0.2, 0.8;
+  const Vector x = (gradient * mesh.points.topRows(2)).reshaped();
+  Model model = modelOf(mesh, 2);
+  std::vector<double> stiffness(mesh.triangles.size(), 1.0), thickness = stiffness;
+  stiffness[2] = 3;
+  thickness[2] = 0.5;
+  thickness[5] = 4;
+  const TriangleFactors factors{stiffness, thickness};
+  model.energies.push_back(makeMembrane(2, model.restPositions, mesh.triangles, material, factors));
+  model.finish();
+  const auto area = [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return 0.5 * (mesh.points.col(b) - mesh.points.col(a)).cross(mesh.points.col(c) - mesh.points.col(a)).norm();
+  };
+  const double weighted = length * width + 0.5 * area(2) + 3 * area(5);
+  const double expected = weighted * energyDensity(gradient.transpose() * gradient);
+  QVERIFY(std::abs(ElasticAssembler(std::make_shared<const Model>(model)).value(x) - expected) <= 1e-12 * expected);
+
+  std::vector<Eigen::Triplet<double>> entries;
+  addShellMass(2, model.restPositions, mesh.triangles, material, MassMatrix::lumped, entries, factors);
+  double mass = 0;
+  for (const auto& entry : entries) mass += entry.value() / 2;  // in both directions
+  const double expectedMass = material.density * material.thickness * (length * width - 0.5 * area(2) + 3 * area(5));
+  QVERIFY(std::abs(mass - expectedMass) <= 1e-12 * expectedMass);
+
+  // Bending of an edge: D goes with the stiffness and the thickness cubed.
+  const geometry::SurfaceMesh pair = geometry::makeGrid(1, 1, 1, 1);
+  const Vector rest = modelOf(pair, 3).restPositions;
+  Vector bent = rest;
+  bent[2] += 0.1;
+  const auto bendingEnergy = [&](const TriangleFactors& both) {
+    Model hinge = modelOf(pair, 3);
+    hinge.energies.push_back(makeHingeBending(rest, pair.triangles, material, both));
+    hinge.finish();
+    return ElasticAssembler(std::make_shared<const Model>(hinge)).value(bent);
+  };
+  const std::vector<double> uneven = {5, 1}, thick = {2, 2};
+  const double plain = bendingEnergy({});
+  QVERIFY(std::abs(bendingEnergy({uneven, {}}) - 3 * plain) <= 1e-12 * plain);
+  QVERIFY(std::abs(bendingEnergy({{}, thick}) - 8 * plain) <= 1e-12 * plain);
+}
+
 void TestMembrane::badInputIsRefused() {
   const geometry::SurfaceMesh mesh = geometry::makeGrid(1, 1, 2, 2);
   const Vector rest = modelOf(mesh, 3).restPositions;
@@ -121,6 +167,9 @@ void TestMembrane::badInputIsRefused() {
     changed.poissonRatio = bad;
     QVERIFY_EXCEPTION_THROWN(build(changed, mesh.triangles), base::InputError);
   }
+  const std::vector<double> tooFew = {1, 2}, negative(mesh.triangles.size(), -1.0);
+  for (const std::vector<double>& bad : {tooFew, negative})
+    QVERIFY_EXCEPTION_THROWN(makeMembrane(3, rest, mesh.triangles, material, {bad, {}}), base::InputError);
   QVERIFY_EXCEPTION_THROWN(build(material, {{0, 1, 9}}), base::InputError);
   QVERIFY_EXCEPTION_THROWN(build(material, {{0, 1, -1}}), base::InputError);
   QVERIFY_EXCEPTION_THROWN(build(material, {{0, 1, 1}}), base::InputError);
