@@ -57,6 +57,11 @@ void requireFactors(std::span<const double> factors, std::size_t elementCount) {
     requirePositive(factors[e], "the factor of element " + std::to_string(e));
 }
 
+void requireSpringLaw(const SpringLaw& law) {
+  if (law.coefficients.empty()) refuse("a spring must have at least one stiffness coefficient");
+  for (const double c : law.coefficients) requireFinite(c, "a spring's stiffness coefficient");
+}
+
 void requireSignal(const PeriodicSignal& signal, const std::string& what) {
   for (const PeriodicSignal::Term& term : signal.terms) {
     if (term.order < 0)

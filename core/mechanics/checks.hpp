@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/mechanics/model.hpp"
+#include "core/mechanics/spring.hpp"
 
 namespace pliant::mechanics {
 
@@ -20,6 +21,8 @@ void requireDimension(int dimension, const std::string& what, int least = 1);
 void requireNodes(std::span<const int> nodes, int nodeCount, const std::string& what);
 /// None, or one for each element, above 0.
 void requireFactors(std::span<const double> factors, std::size_t elementCount);
+/// At least one coefficient, all finite.
+void requireSpringLaw(const SpringLaw& law);
 /// Orders of at least 0, finite amplitudes and phases.
 void requireSignal(const PeriodicSignal& signal, const std::string& what);
 

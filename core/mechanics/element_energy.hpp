@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace pliant::mechanics {
 ///                                 std::array<T, d(d+1)/2>* hessian) const;
 /// (or with two more arguments, `const std::array<T, d>* stressFrom, const std::array<T, d>* stressTo`: see
 /// ElasticAssembler::StressSource; both may be null)
-/// which returns the element's energy and overwrites the derivatives that are asked for (Hessian packed by rows of
+/// and, if it stands for a constraint, `double violation(const std::array<double, d>& x) const`, relative. `evaluate`
+/// returns the element's energy and overwrites the derivatives that are asked for (Hessian packed by rows of
 /// the lower triangle). Adding a kind of energy is writing such a struct.
 template <class Element>
 class ElementEnergy final : public Energy {
@@ -32,6 +34,20 @@ class ElementEnergy final : public Energy {
 
   void accumulate(const EvaluationBlock<double>& block) const override { accumulateAll(block); }
   void accumulate(const EvaluationBlock<math::Packet>& block) const override { accumulateAll(block); }
+
+  std::optional<double> constraintViolation(const double* x) const override {
+    if constexpr (requires(const Element& element, std::array<double, d> at) { element.violation(at); }) {
+      double largest = 0;
+      for (std::size_t e = 0; e < elements_.size(); ++e) {
+        std::array<double, d> at;
+        for (int i = 0; i < d; ++i) at[i] = x[coordinates_[e][i]];
+        largest = std::max(largest, elements_[e].violation(at));
+      }
+      return largest;
+    } else {
+      return Energy::constraintViolation(x);
+    }
+  }
 
  private:
   template <class T>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -39,6 +40,13 @@ class Energy {
 
   virtual void accumulate(const EvaluationBlock<double>& block) const = 0;
   virtual void accumulate(const EvaluationBlock<math::Packet>& block) const = 0;
+
+  /// Of energies that stand for constraints, such as rigid links: the largest relative violation of any element at the
+  /// coordinates x. None of others.
+  virtual std::optional<double> constraintViolation(const double* x) const {
+    static_cast<void>(x);
+    return std::nullopt;
+  }
 };
 
 }  // namespace pliant::mechanics

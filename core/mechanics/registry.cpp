@@ -1,7 +1,10 @@
 #include "core/mechanics/registry.hpp"
 
+#include <numeric>
+
 #include "core/geometry/mesh_generators.hpp"
 #include "core/geometry/tet_mesh.hpp"
+#include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
 #include "core/mechanics/shell.hpp"
 #include "core/mechanics/solid.hpp"
@@ -107,6 +110,47 @@ Model groundedSpringExample(std::mt19937& random, int dimension) {
   return model;
 }
 
+Model rigidBarExample(std::mt19937& random, int dimension, int joints) {
+  Model model = randomNodes(random, dimension, joints);
+  std::vector<int> nodes(static_cast<std::size_t>(joints));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  model.energies = makeRigidBar(dimension, model.restPositions, nodes, uniform(random, 10, 100));
+  model.finish();
+  return model;
+}
+
+Model localSpringExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, 4);
+  const auto onLink = [&](int a, int b) {
+    const double across = dimension == 2 ? uniform(random, -0.2, 0.2) : 0;
+    return attachedToLink(dimension, model.restPositions, a, b, uniform(random, -0.1, 0.4), across);
+  };
+  const auto join = [&](const AttachmentPoint& from, const AttachmentPoint& to, double restLength) {
+    model.energies.push_back(makeLocalSpring(dimension, from, to, restLength, randomLaw(random)));
+  };
+  join(onLink(0, 1), onLink(2, 3), uniform(random, 0.5, 1));
+  join(onLink(0, 1), onLink(1, 2), 0);
+  join(onLink(3, 1), attachedToNode(dimension, 0), uniform(random, 0.5, 1));
+  model.finish();
+  return model;
+}
+
+Model anchoredLocalSpringExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, 2);
+  const AttachmentPoint point = attachedToLink(dimension, model.restPositions, 0, 1, uniform(random, 0, 1), 0);
+  const AttachmentPoint anchor = fixedPlace(randomVector(random, dimension, 0.2));
+  model.energies.push_back(makeLocalSpring(dimension, point, anchor, uniform(random, 0.5, 1), randomLaw(random)));
+  model.finish();
+  return model;
+}
+
+Model torsionSpringExample(std::mt19937& random, int) {
+  Model model = randomNodes(random, 2, 3);
+  model.energies.push_back(makeTorsionSpring(model.restPositions, 0, 1, 2, uniform(random, 1, 10)));
+  model.finish();
+  return model;
+}
+
 Model pointMassExample(std::mt19937& random) {
   Model model = springExample(random, 3);
   model.gravity = randomVector(random, 3, 10);
@@ -132,7 +176,13 @@ const std::vector<EnergyKind>& energyKinds() {
       list.push_back(kind("spring", dimension, springExample));
       list.push_back(kind("anchored_spring", dimension, anchoredSpringExample));
       list.push_back(kind("grounded_spring", dimension, groundedSpringExample));
+      list.push_back(kind("local_spring", dimension, localSpringExample));
+      list.push_back(kind("anchored_local_spring", dimension, anchoredLocalSpringExample));
+      for (const int joints : {2, 3, 6})
+        list.push_back(kind("rigid_bar of " + std::to_string(joints), dimension,
+                            [joints](std::mt19937& random, int d) { return rigidBarExample(random, d, joints); }));
     }
+    list.push_back(kind("torsion_spring", 2, torsionSpringExample));
     list.push_back(kind("hinge_bending", 3, hingeExample));
     list.push_back(kind("solid", 3, solidExample));
     return list;

@@ -88,8 +88,7 @@ struct GroundedSpringElement {
 
 void checkLaw(int dimension, const SpringLaw& law) {
   requireDimension(dimension, "a spring");
-  if (law.coefficients.empty()) throw base::InputError("", "a spring must have at least one stiffness coefficient");
-  for (const double c : law.coefficients) requireFinite(c, "a spring's stiffness coefficient");
+  requireSpringLaw(law);
 }
 
 template <int dimension>
