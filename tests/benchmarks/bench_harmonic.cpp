@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/frequency_response.hpp"
-#include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
+#include "tests/benchmarks/bench_program.hpp"
 
 namespace {
 
@@ -80,22 +79,4 @@ Json measure() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const bool withFile = arguments.size() == 3 && arguments[1] == "--json";
-  if (arguments.empty() || arguments[0] != "harmonic" || !(arguments.size() == 1 || withFile)) {
-    std::fprintf(stderr, "usage: pliant-bench harmonic [--json FILE]\n");
-    return 2;
-  }
-  try {
-    const std::filesystem::path file = withFile ? arguments[2] : PLIANT_SOURCE_DIR "/build/bench/harmonic.json";
-    const Json rows = measure();
-    std::filesystem::create_directories(file.parent_path());
-    scene::writeTextFile(file, scene::formatJson(rows));
-    std::printf("written to %s\n", file.c_str());
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
-  }
-}
+int main(int argc, char** argv) { return pliant::bench::runBenchmark(argc, argv, "harmonic", measure); }

@@ -199,6 +199,10 @@ struct MotionView::Parts {
   void showPaths() {
     paths.actor()->SetVisibility(problem != nullptr);
     if (problem) paths.setClosedCurves(nodePaths(*problem, trajectories, tracedNodes()), 0);
+    showPredictedPaths();
+  }
+
+  void showPredictedPaths() {
     predictedPaths.actor()->SetVisibility(problem && prediction);
     if (problem && prediction)
       predictedPaths.setClosedCurves(
@@ -207,8 +211,8 @@ struct MotionView::Parts {
 
   void showPose() {
     solved.setVisible(model != nullptr);
-    predicted.setVisible(problem && prediction);
     probeDots.actor()->SetVisibility(problem != nullptr);
+    showPredictedPose();
     if (!model) return;
     const Vector positions = problem ? problem->configurationAt(z, tau) : model->restPositions;
     pose = layout.pose(positions);
@@ -217,6 +221,10 @@ struct MotionView::Parts {
     solved.setField(showsField() ? &values : nullptr, table);
     probeDots.setNodes(layout.probeNodes);
     probeDots.setPoints(pose);
+  }
+
+  void showPredictedPose() {
+    predicted.setVisible(problem && prediction);
     if (problem && prediction) predicted.setPose(layout.pose(problem->configurationAt(*prediction, tau)));
   }
 };
@@ -272,23 +280,25 @@ void MotionView::clearMotion() {
 void MotionView::setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel) {
   Parts& p = *parts_;
   if (!p.problem) return;
+  const bool first = !p.prediction;
   p.prediction = z;
   p.predicted.setMassRadii(p.layout, p.layout.massRadii(changedModel ? *changedModel : *p.model));
-  p.showPaths();
-  p.showPose();
-  p.applyTheme();
+  p.showPredictedPaths();
+  p.showPredictedPose();
+  if (first) p.applyTheme();
 }
 
 void MotionView::clearPrediction() {
   Parts& p = *parts_;
   if (!p.prediction) return;
   p.prediction.reset();
-  p.showPaths();
-  p.showPose();
+  p.showPredictedPaths();
+  p.showPredictedPose();
   p.applyTheme();
 }
 
 void MotionView::setStale(bool stale) {
+  if (parts_->stale == stale) return;
   parts_->stale = stale;
   parts_->applyTheme();
 }

@@ -81,10 +81,6 @@ QString ViewportLink::caption() const {
               .arg(shown.problem->basis().harmonics())
               .arg(shown.motion.report.residual(), 0, 'g', 2)
               .arg(shown.motion.report.correction(), 0, 'g', 2);
-  if (session_.prediction())
-    text += tr("\npredicted (hatched): %1").arg(plots::formatLength(session_.predictedAmplitude().value_or(0)));
-  else if (session_.isStale())
-    text += tr("\nstale: the scene has changed, press U to update");
   return text;
 }
 

@@ -42,7 +42,11 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   connect(&timer_, &QTimer::timeout, this, &Viewport::advance);
   settleTimer_.setInterval(settleDelay);
   settleTimer_.setSingleShot(true);
-  connect(&settleTimer_, &QTimer::timeout, this, [this] { redraw(); });
+  connect(&settleTimer_, &QTimer::timeout, this, [this] {
+    if (isPlaying()) return;  // the next frame is on its way
+    view_.setFineQuality(true);
+    surface_->requestRender();
+  });
   view_.setAxisView(render::AxisView::isometric);
   applyTheme();
 }
@@ -232,18 +236,17 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
 void Viewport::advance() { setTau(view_.tau() + fullTurn * speed_ * 1e-3 * static_cast<double>(clock_.restart())); }
 
 void Viewport::redraw(bool moving) {
-  const bool rough = (moving || isPlaying()) && surface_->drawsInSoftware();
-  view_.setFineQuality(!rough);
-  if (rough) {
-    settleTimer_.start();
-  } else {
-    settleTimer_.stop();
-  }
+  // What moved a moment ago stays rough whatever else is redrawn: a drag changes the caption as well.
+  if ((moving || isPlaying()) && surface_->drawsInSoftware()) settleTimer_.start();
+  view_.setFineQuality(!settleTimer_.isActive());
   surface_->requestRender();
 }
 
 void Viewport::settle() {
-  if (settleTimer_.isActive()) redraw();
+  if (!settleTimer_.isActive()) return;
+  settleTimer_.stop();
+  view_.setFineQuality(true);
+  surface_->requestRender();
 }
 
 void Viewport::applyTheme() {

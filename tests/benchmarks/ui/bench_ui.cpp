@@ -1,0 +1,92 @@
+/// `pliant-bench-ui ui [--json FILE]`: what a designer waits for in the window, each the median of many times.
+#include <QApplication>
+#include <QElapsedTimer>
+#include <algorithm>
+#include <stdexcept>
+
+#include "tests/benchmarks/bench_program.hpp"
+#include "ui/panels/parameter_panel.hpp"
+#include "ui/panels/parameter_row.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace {
+
+using namespace pliant;
+using base::Json;
+
+constexpr int repetitions = 60;
+constexpr int patience = 300'000;  // milliseconds
+
+template <class Condition>
+void waitFor(const Condition& condition, const char* what) {
+  QElapsedTimer watch;
+  watch.start();
+  while (!condition()) {
+    if (watch.elapsed() > patience) throw std::runtime_error(std::string("waited too long for ") + what);
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+  }
+}
+
+/// Calls act(i) again and again, with all events that it gives rise to, painting included.
+template <class Act>
+Json rowOf(const std::string& name, int size, const Act& act) {
+  std::vector<double> seconds;
+  for (int i = 0; i < repetitions; ++i) {
+    QElapsedTimer watch;
+    watch.start();
+    act(i);
+    QCoreApplication::processEvents();
+    seconds.push_back(1e-9 * static_cast<double>(watch.nsecsElapsed()));
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const double median = seconds[seconds.size() / 2];
+  std::printf("%-36s %7d %10.2f ms (fastest %.2f, slowest %.2f)\n", name.c_str(), size, 1e3 * median,
+              1e3 * seconds.front(), 1e3 * seconds.back());
+  std::fflush(stdout);
+  Json row;
+  row["area"] = "ui";
+  row["name"] = name;
+  row["seconds"] = median;
+  row["iterations"] = repetitions;
+  row["unavoidable_seconds"] = nullptr;
+  row["thesis_seconds"] = nullptr;
+  row["size"] = size;
+  return row;
+}
+
+/// The fork's motion in a window of 1280 x 800.
+Json measure() {
+  shell::MainWindow window(false);
+  window.resize(1280, 800);
+  window.show();
+  window.openFile(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/fork.json"));
+  jobs::MotionSession& session = window.session();
+  auto* viewport = window.findChild<viewport::Viewport*>();
+  waitFor([&] { return window.document().model() != nullptr; }, "the scene");
+  session.run({"motion"});
+  waitFor([&] { return !session.isBusy() && !session.effects().empty(); }, "the motion");
+  viewport->pause();
+  const std::string pointer = window.document().model()->parameters.front()->pointer();
+  const double mass = window.document().valueAt(pointer).get<double>();
+  const int size = static_cast<int>(session.shown()->problem->size());
+  std::printf("drawn by %s\n", viewport->surfaceName().toUtf8().constData());
+
+  Json rows = Json::array();
+  rows.push_back(rowOf("ui/fork/frame", size, [&](int i) { viewport->setTau(0.1 * (i + 1)); }));
+  rows.push_back(
+      rowOf("ui/fork/ghost", size, [&](int i) { session.preview(pointer, mass * (1 + 0.5 * (i + 1) / repetitions)); }));
+  rows.push_back(rowOf("ui/fork/ghost-and-frame", size, [&](int i) {
+    session.preview(pointer, mass * (1 + 0.5 * (i + 1) / repetitions));
+    viewport->setTau(0.1 * (i + 1));
+  }));
+  session.endPreview();
+  return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  return pliant::bench::runBenchmark(argc, argv, "ui", measure);
+}
