@@ -11,7 +11,7 @@ namespace pliant::harmonic {
 
 namespace {
 
-/// The columns of the mass matrix that belong to free coordinates: n * dimension x nFree.
+/// The columns of the mass matrix that belong to free coordinates: coordinates x nFree.
 SparseMatrix freeColumns(const Model& model, const SparseMatrix& matrix) {
   SparseMatrix columns(matrix.rows(), model.dofs.freeCount());
   std::vector<Eigen::Triplet<double>> entries;
@@ -39,6 +39,27 @@ Matrix scaledLoads(const Matrix& coefficients, double fraction) {
   return scaled;
 }
 
+/// ∇²E at each configuration (a row of `x`) times the same row of `direction`, over all coordinates.
+Matrix stiffnessTimes(const Model& model, const Matrix& x, const Matrix& direction) {
+  Model unbound = model;
+  unbound.drives.clear();
+  unbound.lockedCoordinates.clear();
+  unbound.finish();
+  const mechanics::ElasticAssembler assembler(std::make_shared<const Model>(std::move(unbound)));
+  Matrix padded(mechanics::ElasticAssembler::paddedRows(static_cast<int>(x.rows())), x.cols()), gradient, hessian;
+  padded.topRows(x.rows()) = x;
+  padded.bottomRows(padded.rows() - x.rows()).rowwise() = x.row(0);
+  assembler.evaluate(padded, gradient, &hessian);
+  Matrix product = Matrix::Zero(x.rows(), x.cols());
+  for (int e = 0; e < assembler.entryCount(); ++e) {
+    const int row = assembler.rows()[e], column = assembler.columns()[e];
+    const auto stiffness = hessian.col(e).head(x.rows()).array();
+    product.col(row).array() += stiffness * direction.col(column).array();
+    if (row != column) product.col(column).array() += stiffness * direction.col(row).array();
+  }
+  return product;
+}
+
 double sampleAngle(int sample, int samples) { return 2 * std::numbers::pi * sample / samples; }
 
 }  // namespace
@@ -48,7 +69,7 @@ struct HarmonicBalanceProblem::Structure {
   std::shared_ptr<const Model> model;
   math::HarmonicBasis basis;
   mechanics::ElasticAssembler assembler;
-  SparseMatrix massToFree;  ///< n * dimension x nFree
+  SparseMatrix massToFree;  ///< coordinates x nFree
   HarmonicJacobian jacobian;
   Matrix synthesis;  ///< Γ, its first row repeated up to whole packets
 
@@ -74,17 +95,15 @@ struct HarmonicBalanceProblem::Structure {
   }
 
   void sampleDrives(int padded) {
-    const int d = model->dimension;
     steadyConfiguration = model->restPositions;
     std::vector<Matrix> swings;
     for (const auto& drive : model->drives) {
-      Matrix positions(padded, static_cast<Eigen::Index>(drive->nodes().size()) * d);
-      for (int i = 0; i < padded; ++i)
-        for (std::size_t n = 0; n < drive->nodes().size(); ++n) {
-          const Vector rest = model->restPositions.segment(drive->nodes()[n] * d, d);
-          const double tau = sampleAngle(i < basis.samples() ? i : 0, basis.samples());
-          positions.block(i, static_cast<Eigen::Index>(n) * d, 1, d) = drive->position(rest, tau).transpose();
-        }
+      const std::vector<int>& driven = drive->coordinates();
+      Matrix positions(padded, static_cast<Eigen::Index>(driven.size()));
+      for (int i = 0; i < padded; ++i) {
+        const double tau = sampleAngle(i < basis.samples() ? i : 0, basis.samples());
+        positions.row(i) = drive->values(model->restPositions(driven), tau).transpose();
+      }
       const auto samples = positions.topRows(basis.samples());
       const Eigen::RowVectorXd mean = samples.colwise().mean();
       Eigen::Index nearest = 0;
@@ -92,11 +111,8 @@ struct HarmonicBalanceProblem::Structure {
       const Eigen::RowVectorXd steady = positions.row(nearest);
       positions.rowwise() -= steady;
       swings.push_back(positions);
-      for (std::size_t n = 0; n < drive->nodes().size(); ++n)
-        for (int axis = 0; axis < d; ++axis) {
-          drivenCoordinates.push_back(drive->nodes()[n] * d + axis);
-          steadyConfiguration[drivenCoordinates.back()] = steady[static_cast<Eigen::Index>(n) * d + axis];
-        }
+      drivenCoordinates.insert(drivenCoordinates.end(), driven.begin(), driven.end());
+      steadyConfiguration(driven) = steady.transpose();
     }
     swing.resize(padded, static_cast<Eigen::Index>(drivenCoordinates.size()));
     Eigen::Index column = 0;
@@ -206,7 +222,7 @@ void HarmonicBalanceProblem::evaluate(const Vector& z, bool withHessian, const S
 }
 
 /// Coefficients of M x over the free coordinates, driven ones included in x: (2H+1) x nFree. `massToFree` is
-/// n * dimension x nFree.
+/// coordinates x nFree.
 Matrix HarmonicBalanceProblem::inertialCoefficients(const Vector& z, const SparseMatrix& massToFree) const {
   const Structure& s = *structure_;
   Matrix all = Matrix::Zero(s.basis.size(), s.model->coordinateCount());
@@ -249,22 +265,34 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega
                                                    const mechanics::DesignParameter& parameter) const {
   const Structure& s = *structure_;
   const Model& m = *s.model;
-  evaluate(z, false);
-  const Matrix& positions = workspace_->positions;
-  Matrix gradients(s.basis.samples(), m.dofs.freeCount());
-  Matrix loads(s.basis.samples(), m.dofs.freeCount());
-  for (int i = 0; i < s.basis.samples(); ++i) {
-    gradients.row(i) =
-        parameter.gradientDerivative(m, positions.row(i).transpose())(m.dofs.freeCoordinates).transpose();
-    loads.row(i) =
-        parameter.externalForceDerivative(m, sampleAngle(i, s.basis.samples()))(m.dofs.freeCoordinates).transpose();
+  const std::unique_ptr<mechanics::ModelDerivative> change = parameter.derivative(m);
+  const int samples = s.basis.samples();
+  samplePositions(z, driveFraction_, workspace_->positions);
+  const Matrix positions = workspace_->positions.topRows(samples);
+  Matrix loads(samples, m.coordinateCount()), moved(samples, m.coordinateCount());
+  for (int i = 0; i < samples; ++i) {
+    loads.row(i) = change->externalForce(sampleAngle(i, samples)).transpose();
+    moved.row(i) = change->prescribed(sampleAngle(i, samples)).transpose();
   }
-  const Matrix elastic = s.basis.analysis() * gradients;
-  const Matrix inertial = inertialCoefficients(z, freeColumns(m, parameter.massDerivative(m)));
-  return (omega * omega * s.basis.secondDerivative(inertial) + m.massDamping * omega * s.basis.derivative(inertial) +
-          elastic + m.stiffnessDamping * omega * s.basis.derivative(elastic) -
-          scaledLoads(s.basis.analysis() * loads, driveFraction_))
-      .reshaped();
+  Matrix gradients = change->gradient(positions);
+  Matrix inertial = inertialCoefficients(z, freeColumns(m, change->mass()));
+  if (!moved.isZero(0)) {
+    gradients += stiffnessTimes(m, positions, moved);
+    inertial += s.basis.analysis() * moved * s.massToFree;
+  }
+  const Matrix elastic = s.basis.analysis() * gradients(Eigen::all, m.dofs.freeCoordinates);
+  Matrix derivative = omega * omega * s.basis.secondDerivative(inertial) +
+                      m.massDamping * omega * s.basis.derivative(inertial) + elastic +
+                      m.stiffnessDamping * omega * s.basis.derivative(elastic) -
+                      scaledLoads(s.basis.analysis() * loads(Eigen::all, m.dofs.freeCoordinates), driveFraction_);
+  if (const double rate = change->massDamping(); rate != 0)
+    derivative += rate * omega * s.basis.derivative(inertialCoefficients(z, s.massToFree));
+  if (const double rate = change->stiffnessDamping(); rate != 0) {
+    evaluate(z, false);
+    const Matrix forces = workspace_->gradient.topRows(samples)(Eigen::all, m.dofs.freeCoordinates);
+    derivative += rate * omega * s.basis.derivative(s.basis.analysis() * forces);
+  }
+  return derivative.reshaped();
 }
 
 Matrix HarmonicBalanceProblem::trajectories(const Vector& z) const {

@@ -79,7 +79,7 @@ class HarmonicBalanceProblem {
   const Vector& steadyConfiguration() const;
   /// The steady part of the external force on all coordinates [N].
   const Vector& steadyForce() const;
-  /// Coefficients of a motionless configuration (size n * dimension).
+  /// Coefficients of a motionless configuration (of all coordinates).
   Vector constantCoefficients(const Vector& configuration) const;
   /// The coefficients with their constants set to zero: the swing about the mean position.
   Vector oscillation(const Vector& z) const;
@@ -90,14 +90,14 @@ class HarmonicBalanceProblem {
   /// given: with those of a better motion it makes a better step from a prediction or a Newton iterate than its own.
   void linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian, Vector* frequencyDerivative,
                  const StressSource* stresses = nullptr) const;
-  /// ∂h/∂p, size().
+  /// ∂h/∂p, size(): with all of the drive, and with the coordinates that are not free moving as p moves them.
   Vector parameterDerivative(const Vector& z, double omega, const mechanics::DesignParameter& parameter) const;
 
-  /// Positions of every coordinate at the N samples: N x (n * dimension) [m].
+  /// Positions of every coordinate at the N samples: N x coordinates [m].
   Matrix trajectories(const Vector& z) const;
   /// Positions of one node at the N samples: N x dimension [m].
   Matrix nodeTrajectory(const Vector& z, int node) const;
-  /// Positions of every coordinate at any τ, size n * dimension [m].
+  /// Positions of every coordinate at any τ [m].
   Vector configurationAt(const Vector& z, double tau) const;
   /// The coefficients with another number of harmonics (cut or filled with zeros).
   static Vector changeHarmonics(const Vector& z, int fromHarmonics, int toHarmonics);

@@ -2,16 +2,12 @@
 
 namespace pliant::mechanics {
 
-SparseMatrix DesignParameter::massDerivative(const Model& model) const {
-  return {model.coordinateCount(), model.coordinateCount()};
-}
+SparseMatrix ModelDerivative::mass() const { return {model_.coordinateCount(), model_.coordinateCount()}; }
 
-Vector DesignParameter::externalForceDerivative(const Model& model, double) const {
-  return Vector::Zero(model.coordinateCount());
-}
+Vector ModelDerivative::externalForce(double) const { return Vector::Zero(model_.coordinateCount()); }
 
-Vector DesignParameter::gradientDerivative(const Model& model, const Vector&) const {
-  return Vector::Zero(model.coordinateCount());
-}
+Matrix ModelDerivative::gradient(const Matrix& x) const { return Matrix::Zero(x.rows(), x.cols()); }
+
+Vector ModelDerivative::prescribed(double) const { return Vector::Zero(model_.coordinateCount()); }
 
 }  // namespace pliant::mechanics

@@ -7,8 +7,29 @@
 
 namespace pliant::mechanics {
 
-/// A scalar of the model that a designer may change, with the derivatives of the equation of motion that sensitivity
-/// analysis needs. Kinds override what they touch; whatever they do not override does not depend on them.
+/// What the equation of motion of one model loses or gains with a parameter p, all else fixed: free coordinates, τ, ω.
+/// Kinds of parameters override what they touch; the rest does not depend on them. One thread at a time.
+class ModelDerivative {
+ public:
+  explicit ModelDerivative(const Model& model) : model_(model) {}
+  virtual ~ModelDerivative() = default;
+
+  /// dM/dp, square over all coordinates.
+  virtual SparseMatrix mass() const;
+  /// d(f_ext)/dp at τ, on all coordinates (gravity's dependence on mass included).
+  virtual Vector externalForce(double tau) const;
+  /// d(∇E)/dp at some configurations `x` (one a row, all coordinates), like x.
+  virtual Matrix gradient(const Matrix& x) const;
+  /// How the coordinates that are not free move with p at τ; 0 for the free ones.
+  virtual Vector prescribed(double tau) const;
+  virtual double massDamping() const { return 0; }       ///< dD_α/dp
+  virtual double stiffnessDamping() const { return 0; }  ///< dD_β/dp
+
+ protected:
+  const Model& model_;
+};
+
+/// A scalar of the model that a designer may change.
 class DesignParameter {
  public:
   virtual ~DesignParameter() = default;
@@ -23,13 +44,8 @@ class DesignParameter {
 
   /// The model with another value of this parameter.
   virtual Model withValue(const Model& model, double value) const = 0;
-
-  /// dM/dp, square over all coordinates.
-  virtual SparseMatrix massDerivative(const Model& model) const;
-  /// d(f_ext)/dp at τ, on all coordinates (gravity's dependence on mass included).
-  virtual Vector externalForceDerivative(const Model& model, double tau) const;
-  /// d(∇E)/dp at positions x, on all coordinates.
-  virtual Vector gradientDerivative(const Model& model, const Vector& x) const;
+  /// The derivatives at `model`, which must outlive them.
+  virtual std::unique_ptr<ModelDerivative> derivative(const Model& model) const = 0;
 };
 
 }  // namespace pliant::mechanics

@@ -1,5 +1,7 @@
 #include "core/mechanics/model.hpp"
 
+#include <set>
+
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
 
@@ -12,9 +14,10 @@ std::string quoted(const char* kind, const std::string& name) { return std::stri
 void checkSizes(const Model& model) {
   requireDimension(model.dimension, "the model");
   const int count = model.coordinateCount();
-  if (count == 0 || count % model.dimension != 0)
+  const int nodal = count - model.scalarCount;
+  if (model.scalarCount < 0 || nodal <= 0 || nodal % model.dimension != 0)
     throw base::InputError("", "the model must have at least one node, and " + std::to_string(model.dimension) +
-                                   " coordinates for each, but has " + std::to_string(count) + " coordinates");
+                                   " coordinates for each, but has " + std::to_string(nodal) + " coordinates");
   requireVector(model.restPositions, count, "the rest positions");
   requireVector(model.gravity, model.dimension, "gravity");
   requireNotNegative(model.massDamping, "the mass damping");
@@ -25,6 +28,23 @@ void checkSizes(const Model& model) {
   if (static_cast<int>(model.lockedCoordinates.size()) != count)
     throw base::InputError(
         "", "the locked coordinates must be given for each of the " + std::to_string(count) + " coordinates");
+}
+
+/// "node 3" or "scalar coordinate 3".
+std::string ownerOf(const Model& model, int coordinate) {
+  const int nodal = model.nodeCount() * model.dimension;
+  return coordinate < nodal ? "node " + std::to_string(coordinate / model.dimension)
+                            : "scalar coordinate " + std::to_string(coordinate - nodal);
+}
+
+void requireCoordinate(const Model& model, int coordinate, const std::string& what) {
+  if (coordinate >= 0 && coordinate < model.coordinateCount()) return;
+  const bool nodal = coordinate < 0 || model.scalarCount == 0;
+  throw base::InputError(
+      "", what + " names " +
+              (nodal ? "node " + std::to_string(coordinate / model.dimension) + ", but there are " +
+                           std::to_string(model.nodeCount()) + " nodes"
+                     : ownerOf(model, coordinate) + ", but there are " + std::to_string(model.scalarCount)));
 }
 
 void checkParts(const Model& model) {
@@ -46,28 +66,20 @@ void checkParts(const Model& model) {
   for (const auto& energy : model.energies)
     for (int e = 0; e < energy->elementCount(); ++e)
       for (const int coordinate : energy->elementCoordinates(e))
-        if (coordinate < 0 || coordinate >= model.coordinateCount())
-          throw base::InputError("", "element " + std::to_string(e) + " of the " + std::string(energy->name()) +
-                                         " names node " + std::to_string(coordinate / model.dimension) +
-                                         ", but there are " + std::to_string(nodes) + " nodes");
+        requireCoordinate(model, coordinate, "element " + std::to_string(e) + " of the " + std::string(energy->name()));
 }
 
 DofMap mapUnknowns(const Model& model) {
-  const int dimension = model.dimension;
   std::vector<char> fixed = model.lockedCoordinates;
-  std::vector<char> driven(model.nodeCount(), 0);
-  for (const auto& drive : model.drives) {
-    requireNodes(drive->nodes(), model.nodeCount(), "a prescribed motion");
-    for (const int node : drive->nodes()) {
-      if (driven[node]) throw base::InputError("", "node " + std::to_string(node) + " is driven more than once");
-      driven[node] = 1;
-      for (int axis = 0; axis < dimension; ++axis) {
-        if (model.lockedCoordinates[node * dimension + axis])
-          throw base::InputError("", "node " + std::to_string(node) + " is both driven and locked");
-        fixed[node * dimension + axis] = 1;
-      }
+  std::vector<char> driven(model.coordinateCount(), 0);
+  for (const auto& drive : model.drives)
+    for (const int coordinate : drive->coordinates()) {
+      requireCoordinate(model, coordinate, "a prescribed motion");
+      if (driven[coordinate]) throw base::InputError("", ownerOf(model, coordinate) + " is driven more than once");
+      if (model.lockedCoordinates[coordinate])
+        throw base::InputError("", ownerOf(model, coordinate) + " is both driven and locked");
+      driven[coordinate] = fixed[coordinate] = 1;
     }
-  }
   DofMap map;
   map.freeIndex.assign(model.coordinateCount(), -1);
   for (int coordinate = 0; coordinate < model.coordinateCount(); ++coordinate) {
@@ -81,6 +93,15 @@ DofMap mapUnknowns(const Model& model) {
 }
 
 }  // namespace
+
+int Model::addScalars(int count) {
+  const int first = coordinateCount();
+  restPositions.conservativeResize(first + count);
+  restPositions.tail(count).setZero();
+  if (!lockedCoordinates.empty()) lockedCoordinates.resize(first + count, 0);
+  scalarCount += count;
+  return first;
+}
 
 void Model::finish() {
   if (gravity.size() == 0) gravity = Vector::Zero(dimension);
@@ -104,7 +125,11 @@ SparseMatrix Model::massMatrix() const {
 Vector Model::externalForce(double tau) const {
   Vector force = Vector::Zero(coordinateCount());
   if (!gravity.isZero(0)) {
-    if (elementMass) force += *elementMass * gravity.replicate(nodeCount(), 1);
+    if (elementMass) {
+      Vector acceleration = Vector::Zero(coordinateCount());
+      acceleration.head(nodeCount() * dimension) = gravity.replicate(nodeCount(), 1);
+      force += *elementMass * acceleration;
+    }
     for (const PointMass& mass : pointMasses)
       for (const int node : mass.nodes) force.segment(node * dimension, dimension) += mass.mass * gravity;
   }
@@ -118,12 +143,16 @@ Vector Model::externalForce(double tau) const {
 Vector Model::configuration(const Vector& free, double tau) const {
   Vector x = restPositions;
   for (int i = 0; i < dofs.freeCount(); ++i) x[dofs.freeCoordinates[i]] = free[i];
-  for (const auto& drive : drives)
-    for (const int node : drive->nodes()) {
-      const Vector rest = restPositions.segment(node * dimension, dimension);
-      x.segment(node * dimension, dimension) = drive->position(rest, tau);
-    }
+  for (const auto& drive : drives) x(drive->coordinates()) = drive->values(restPositions(drive->coordinates()), tau);
   return x;
+}
+
+std::vector<int> Model::drivenNodes() const {
+  std::set<int> nodes;
+  for (const auto& drive : drives)
+    for (const int coordinate : drive->coordinates())
+      if (coordinate < nodeCount() * dimension) nodes.insert(coordinate / dimension);
+  return {nodes.begin(), nodes.end()};
 }
 
 }  // namespace pliant::mechanics

@@ -33,13 +33,13 @@ struct HarmonicForce {
   PeriodicSignal signal;
 };
 
-/// Positions of some nodes as a function of τ, eliminated exactly from the unknowns.
+/// Some coordinates as a function of τ, eliminated exactly from the unknowns.
 class PrescribedMotion {
  public:
   virtual ~PrescribedMotion() = default;
-  virtual const std::vector<int>& nodes() const = 0;
-  /// Position at τ of a node that rests at `rest` (both of size: dimension, in metres).
-  virtual Vector position(const Vector& rest, double tau) const = 0;
+  virtual const std::vector<int>& coordinates() const = 0;
+  /// Values at τ of these coordinates [m], which rest at `rest` (both of the size of coordinates()).
+  virtual Vector values(const Vector& rest, double tau) const = 0;
 };
 
 /// A node whose trajectory and amplitude are reported.
@@ -64,7 +64,7 @@ struct DisplayPart {
   std::vector<Tether> tethers;                ///< springs to fixed places
 };
 
-/// Which coordinates are unknown. A coordinate is node * dimension + axis.
+/// Which coordinates are unknown.
 struct DofMap {
   std::vector<int> freeIndex;        ///< per coordinate: index among the unknowns, or -1
   std::vector<int> freeCoordinates;  ///< per unknown: its coordinate
@@ -75,11 +75,16 @@ class DesignParameter;
 
 /// A discrete mechanical system M ẍ + D ẋ + ∇E(x) = f(τ), D = massDamping M + stiffnessDamping ∇²E(x).
 /// Constant once built; copying it is cheap (energies are shared), so a changed parameter is a changed copy.
+///
+/// Its coordinates are the positions of the nodes (coordinate node * dimension + axis), followed by `scalarCount`
+/// scalar coordinates, such as the twist of a rod's edge or the angle of a servo. Those are in metres as well, an angle
+/// times a length of the energy's choice, so that the norm of a configuration means something.
 struct Model {
   int dimension = 3;
-  Vector restPositions;  ///< n * dimension [m]
+  int scalarCount = 0;
+  Vector restPositions;  ///< of all coordinates [m]
   std::vector<std::shared_ptr<const Energy>> energies;
-  std::shared_ptr<const SparseMatrix> elementMass;  ///< of the elements, n*dimension square [kg]
+  std::shared_ptr<const SparseMatrix> elementMass;  ///< of the elements, square over all coordinates [kg]
   std::vector<PointMass> pointMasses;
   double massDamping = 0;       ///< D_α [1/s]
   double stiffnessDamping = 0;  ///< D_β [s]
@@ -90,20 +95,27 @@ struct Model {
   std::vector<Probe> probes;
   std::vector<DisplayPart> parts;
   std::vector<std::shared_ptr<const DesignParameter>> parameters;
-  DofMap dofs;  ///< set by finish()
+  std::vector<double> familyValues;  ///< of the parameters that makeFamilyParameter makes
+  DofMap dofs;                       ///< set by finish()
 
-  int nodeCount() const { return static_cast<int>(restPositions.size()) / dimension; }
+  int nodeCount() const { return (coordinateCount() - scalarCount) / dimension; }
   int coordinateCount() const { return static_cast<int>(restPositions.size()); }
 
-  /// Computes `dofs` and checks sizes. Throws base::InputError if no coordinate is free or a node is driven twice.
+  /// Appends scalar coordinates that rest at 0 and returns the first one's index. To be called before the sizes of
+  /// `elementMass` are settled.
+  int addScalars(int count);
+
+  /// Computes `dofs` and checks sizes. Throws base::InputError if no coordinate is free or one is driven twice.
   void finish();
 
   /// M with the point masses, square over all coordinates [kg].
   SparseMatrix massMatrix() const;
   /// External forces on all coordinates at τ [N], gravity included.
   Vector externalForce(double tau) const;
-  /// Positions of all coordinates at τ with the free ones taken from `free` (size freeCount) [m].
+  /// All coordinates at τ with the free ones taken from `free` (size freeCount) [m].
   Vector configuration(const Vector& free, double tau) const;
+  /// The nodes of which a coordinate is driven, ascending.
+  std::vector<int> drivenNodes() const;
 };
 
 }  // namespace pliant::mechanics

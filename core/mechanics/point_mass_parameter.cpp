@@ -6,6 +6,31 @@ namespace pliant::mechanics {
 
 namespace {
 
+class PointMassDerivative final : public ModelDerivative {
+ public:
+  PointMassDerivative(const Model& model, int index)
+      : ModelDerivative(model), nodes_(model.pointMasses.at(index).nodes) {}
+
+  SparseMatrix mass() const override {
+    SparseMatrix derivative(model_.coordinateCount(), model_.coordinateCount());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const int node : nodes_)
+      for (int axis = 0; axis < model_.dimension; ++axis)
+        entries.emplace_back(node * model_.dimension + axis, node * model_.dimension + axis, 1.0);
+    derivative.setFromTriplets(entries.begin(), entries.end());
+    return derivative;
+  }
+
+  Vector externalForce(double) const override {
+    Vector derivative = Vector::Zero(model_.coordinateCount());
+    for (const int node : nodes_) derivative.segment(node * model_.dimension, model_.dimension) += model_.gravity;
+    return derivative;
+  }
+
+ private:
+  const std::vector<int>& nodes_;
+};
+
 class PointMassParameter final : public DesignParameter {
  public:
   PointMassParameter(int index, std::string name) : index_(index), name_(std::move(name)) {}
@@ -24,21 +49,8 @@ class PointMassParameter final : public DesignParameter {
     return changed;
   }
 
-  SparseMatrix massDerivative(const Model& model) const override {
-    SparseMatrix derivative(model.coordinateCount(), model.coordinateCount());
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const int node : model.pointMasses.at(index_).nodes)
-      for (int axis = 0; axis < model.dimension; ++axis)
-        entries.emplace_back(node * model.dimension + axis, node * model.dimension + axis, 1.0);
-    derivative.setFromTriplets(entries.begin(), entries.end());
-    return derivative;
-  }
-
-  Vector externalForceDerivative(const Model& model, double) const override {
-    Vector derivative = Vector::Zero(model.coordinateCount());
-    for (const int node : model.pointMasses.at(index_).nodes)
-      derivative.segment(node * model.dimension, model.dimension) += model.gravity;
-    return derivative;
+  std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
+    return std::make_unique<PointMassDerivative>(model, index_);
   }
 
  private:

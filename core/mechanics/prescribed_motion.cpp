@@ -9,37 +9,46 @@ namespace pliant::mechanics {
 
 namespace {
 
+std::vector<int> coordinatesOf(const std::vector<int>& nodes, int dimension) {
+  std::vector<int> coordinates;
+  for (const int node : nodes)
+    for (int axis = 0; axis < dimension; ++axis) coordinates.push_back(node * dimension + axis);
+  return coordinates;
+}
+
 class Translation final : public PrescribedMotion {
  public:
-  Translation(std::vector<int> nodes, Vector direction, PeriodicSignal signal)
-      : nodes_(std::move(nodes)), direction_(std::move(direction)), signal_(std::move(signal)) {}
+  Translation(std::vector<int> coordinates, Vector direction, PeriodicSignal signal)
+      : coordinates_(std::move(coordinates)), direction_(std::move(direction)), signal_(std::move(signal)) {}
 
-  const std::vector<int>& nodes() const override { return nodes_; }
-  Vector position(const Vector& rest, double tau) const override { return rest + signal_(tau) * direction_; }
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  Vector values(const Vector& rest, double tau) const override {
+    return rest + signal_(tau) * direction_.replicate(rest.size() / direction_.size(), 1);
+  }
 
  private:
-  std::vector<int> nodes_;
-  Vector direction_;
+  std::vector<int> coordinates_;
+  Vector direction_;  ///< for each of them in turn
   PeriodicSignal signal_;
 };
 
 class Rotation final : public PrescribedMotion {
  public:
-  Rotation(std::vector<int> nodes, Vector center, const Eigen::Vector3d& axis, PeriodicSignal signal)
-      : nodes_(std::move(nodes)), center_(std::move(center)), axis_(axis), signal_(std::move(signal)) {}
+  Rotation(std::vector<int> coordinates, Vector center, const Eigen::Vector3d& axis, PeriodicSignal signal)
+      : coordinates_(std::move(coordinates)), center_(std::move(center)), axis_(axis), signal_(std::move(signal)) {}
 
-  const std::vector<int>& nodes() const override { return nodes_; }
-  Vector position(const Vector& rest, double tau) const override {
-    Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-    for (Eigen::Index i = 0; i < rest.size(); ++i) arm[i] = rest[i] - center_[i];
-    const Eigen::Vector3d turned = Eigen::AngleAxisd(signal_(tau), axis_) * arm;
-    Vector position = center_;
-    for (Eigen::Index i = 0; i < rest.size(); ++i) position[i] += turned[i];
-    return position;
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  Vector values(const Vector& rest, double tau) const override {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(signal_(tau), axis_).toRotationMatrix();
+    const Eigen::Index d = center_.size();
+    Vector positions(rest.size());
+    for (Eigen::Index i = 0; i < rest.size(); i += d)
+      positions.segment(i, d) = center_ + turn.topLeftCorner(d, d) * (rest.segment(i, d) - center_);
+    return positions;
   }
 
  private:
-  std::vector<int> nodes_;
+  std::vector<int> coordinates_;
   Vector center_;
   Eigen::Vector3d axis_;
   PeriodicSignal signal_;
@@ -47,15 +56,16 @@ class Rotation final : public PrescribedMotion {
 
 }  // namespace
 
-std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, Vector direction,
+std::shared_ptr<const PrescribedMotion> makeTranslation(const std::vector<int>& nodes, Vector direction,
                                                         PeriodicSignal signal) {
   requireVector(direction, static_cast<int>(direction.size()), "the translation's direction");
   requireDimension(static_cast<int>(direction.size()), "the translation's direction");
   requireSignal(signal, "the translation's signal");
-  return std::make_shared<Translation>(std::move(nodes), std::move(direction), std::move(signal));
+  std::vector<int> coordinates = coordinatesOf(nodes, static_cast<int>(direction.size()));
+  return std::make_shared<Translation>(std::move(coordinates), std::move(direction), std::move(signal));
 }
 
-std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vector center, Eigen::Vector3d axis,
+std::shared_ptr<const PrescribedMotion> makeRotation(const std::vector<int>& nodes, Vector center, Eigen::Vector3d axis,
                                                      PeriodicSignal signal) {
   requireVector(center, static_cast<int>(center.size()), "the rotation's center");
   requireDimension(static_cast<int>(center.size()), "the rotation's center", 2);
@@ -67,7 +77,14 @@ std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vec
     if (axis.isZero(0)) throw base::InputError("", "the rotation's axis must not be zero");
     axis.stableNormalize();
   }
-  return std::make_shared<Rotation>(std::move(nodes), std::move(center), axis, std::move(signal));
+  std::vector<int> coordinates = coordinatesOf(nodes, static_cast<int>(center.size()));
+  return std::make_shared<Rotation>(std::move(coordinates), std::move(center), axis, std::move(signal));
+}
+
+std::shared_ptr<const PrescribedMotion> makeScalarDrive(int coordinate, double lever, PeriodicSignal signal) {
+  requirePositive(lever, "the lever of a scalar drive");
+  requireSignal(signal, "the scalar drive's signal");
+  return std::make_shared<Translation>(std::vector<int>{coordinate}, Vector::Constant(1, lever), std::move(signal));
 }
 
 }  // namespace pliant::mechanics

@@ -8,11 +8,14 @@
 namespace pliant::mechanics {
 
 /// rest + direction * signal(τ); `direction` as given, the signal in metres.
-std::shared_ptr<const PrescribedMotion> makeTranslation(std::vector<int> nodes, Vector direction,
+std::shared_ptr<const PrescribedMotion> makeTranslation(const std::vector<int>& nodes, Vector direction,
                                                         PeriodicSignal signal);
 
 /// Rotation by the angle signal(τ) [rad] about an axis through `center` (in 2 dimensions the axis is ignored: z).
-std::shared_ptr<const PrescribedMotion> makeRotation(std::vector<int> nodes, Vector center, Eigen::Vector3d axis,
+std::shared_ptr<const PrescribedMotion> makeRotation(const std::vector<int>& nodes, Vector center, Eigen::Vector3d axis,
                                                      PeriodicSignal signal);
+
+/// A scalar coordinate by the angle signal(τ) [rad], of which it is `lever` [m] times.
+std::shared_ptr<const PrescribedMotion> makeScalarDrive(int coordinate, double lever, PeriodicSignal signal);
 
 }  // namespace pliant::mechanics

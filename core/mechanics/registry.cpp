@@ -4,8 +4,10 @@
 
 #include "core/geometry/mesh_generators.hpp"
 #include "core/geometry/tet_mesh.hpp"
+#include "core/mechanics/family_parameter.hpp"
 #include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
+#include "core/mechanics/prescribed_motion.hpp"
 #include "core/mechanics/shell.hpp"
 #include "core/mechanics/solid.hpp"
 #include "core/mechanics/spring.hpp"
@@ -160,6 +162,34 @@ Model pointMassExample(std::mt19937& random) {
   return model;
 }
 
+/// Springs, a mass, a load, a drive and the damping, all of which depend on one value.
+Model familyExample(std::mt19937& random) {
+  Model nodes = randomNodes(random, 3, 4);
+  const SpringLaw law = randomLaw(random);
+  const Vector direction = randomVector(random, 3, 1).normalized();
+  const auto family = std::make_shared<const ModelFamily>([=](const std::vector<double>& values) {
+    const double value = values.at(0);
+    Model member = nodes;
+    member.restPositions.tail(3) *= 1 + value;
+    for (const int node : {0, 2, 3})
+      member.energies.push_back(makeSpring(3, node, 1, 0.5 + 0.1 * value, {{law.coefficients[0] * std::exp(value)}}));
+    member.pointMasses.push_back({"mass", {1}, 0.1 + value * value, 0, 10});
+    member.gravity = direction;
+    member.forces.push_back({"load", {2}, direction, {{{1, std::sin(value), 0.2}}}});
+    member.drives.push_back(makeTranslation({0}, direction, {{{1, 0.1, value}}}));
+    member.lockedCoordinates.assign(member.coordinateCount(), 0);
+    member.lockedCoordinates.back() = 1;
+    member.massDamping = value;
+    member.stiffnessDamping = 0.1 * value;
+    member.familyValues = values;
+    member.finish();
+    return member;
+  });
+  Model model = (*family)({uniform(random, 0.5, 1.5)});
+  model.parameters.push_back(makeFamilyParameter(0, {"value", "/value", base::dimensions::none, 0.2, 2}, family));
+  return model;
+}
+
 template <class Example>
 EnergyKind kind(const std::string& name, int dimension, const Example& example) {
   return {name + " " + std::to_string(dimension) + "D",
@@ -191,7 +221,7 @@ const std::vector<EnergyKind>& energyKinds() {
 }
 
 const std::vector<ParameterKind>& parameterKinds() {
-  static const std::vector<ParameterKind> kinds = {{"point_mass", pointMassExample}};
+  static const std::vector<ParameterKind> kinds = {{"point_mass", pointMassExample}, {"family", familyExample}};
   return kinds;
 }
 

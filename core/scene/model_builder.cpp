@@ -5,11 +5,12 @@
 
 #include "core/mechanics/point_mass_parameter.hpp"
 #include "core/mechanics/prescribed_motion.hpp"
-#include "core/mechanics/shell.hpp"
 #include "core/mechanics/spring.hpp"
+#include "core/scene/element_builders.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/placed_geometry.hpp"
+#include "core/scene/scene_parameters.hpp"
 
 namespace pliant::scene {
 
@@ -82,7 +83,7 @@ class Builder {
       model_.restPositions.segment(geometry.firstNode * dimension_, geometry.nodeCount() * dimension_) =
           geometry.mesh.points.topRows(dimension_).reshaped();
       model_.parts.push_back(
-          {geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.globalTriangles(), {}, {}});
+          {geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.global(geometry.mesh.triangles), {}, {}});
     }
     model_.lockedCoordinates.assign(static_cast<std::size_t>(model_.restPositions.size()), 0);
   }
@@ -95,22 +96,11 @@ class Builder {
       const auto named = [&](const auto& list, const char* key) {
         return std::find_if(list.begin(), list.end(), [&](const Json& e) { return e["name"] == entry[key]; });
       };
-      const Json& material = *named(scene_["materials"], "material");
+      const Json* material = entry.contains("material") ? &*named(scene_["materials"], "material") : nullptr;
       const auto geometry = std::find_if(
           geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
-      const mechanics::Triangles triangles = geometry->globalTriangles();
-      if (triangles.empty())
-        throw InputError(pointer + "/geometry", "The geometry " + quote(geometry->name) + " has no triangles.");
-      const mechanics::ShellMaterial shell{
-          material["young_modulus"], material["poisson_ratio"], material["density"], entry["thickness"]};
-      const std::string type = entry["type"];
-      if (type != "bending") {
-        model_.energies.push_back(mechanics::makeMembrane(dimension_, model_.restPositions, triangles, shell));
-        mechanics::addShellMass(dimension_, model_.restPositions, triangles, shell, kind, mass);
-      }
-      if (type != "membrane")
-        if (auto bending = mechanics::makeHingeBending(model_.restPositions, triangles, shell))
-          model_.energies.push_back(std::move(bending));
+      mechanics::DisplayPart& part = model_.parts[static_cast<std::size_t>(geometry - geometries_.begin())];
+      elementBuilders().at(entry["type"])({entry, pointer, material, *geometry, kind, model_, part, mass});
     });
     mechanics::SparseMatrix matrix(model_.restPositions.size(), model_.restPositions.size());
     matrix.setFromTriplets(mass.begin(), mass.end());
@@ -209,6 +199,7 @@ class Builder {
     const mechanics::SparseMatrix mass = model_.massMatrix();
     for (const int coordinate : model_.dofs.freeCoordinates)
       if (!held[static_cast<std::size_t>(coordinate)] && !(mass.coeff(coordinate, coordinate) > 0)) {
+        if (coordinate >= model_.nodeCount() * dimension_) continue;  // elements give their own coordinates mass
         const int node = coordinate / dimension_;
         const auto index = static_cast<std::size_t>(&geometryOf(node) - geometries_.data());
         throw InputError(childPointer("/geometry", index),
@@ -223,11 +214,15 @@ class Builder {
   std::set<int> driven_;
 };
 
+mechanics::Model buildWithoutSceneParameters(const Scene& scene) { return Builder(scene).build(); }
+
 }  // namespace
 
 std::shared_ptr<const mechanics::Model> buildModel(const Scene& scene) {
   try {
-    return std::make_shared<const mechanics::Model>(Builder(scene).build());
+    auto model = std::make_shared<mechanics::Model>(buildWithoutSceneParameters(scene));
+    addSceneParameters(scene, *model, buildWithoutSceneParameters);
+    return model;
   } catch (const InputError& error) {
     throw error.inside(scene.name());
   }
@@ -236,7 +231,8 @@ std::shared_ptr<const mechanics::Model> buildModel(const Scene& scene) {
 geometry::SurfaceMesh surfaceAt(const mechanics::Model& model, const Vector& positions) {
   geometry::SurfaceMesh mesh;
   mesh.points.setZero(3, model.nodeCount());
-  mesh.points.topRows(model.dimension) = positions.reshaped(model.dimension, model.nodeCount());
+  mesh.points.topRows(model.dimension) =
+      positions.head(model.dimension * model.nodeCount()).reshaped(model.dimension, model.nodeCount());
   for (const mechanics::DisplayPart& part : model.parts)
     mesh.triangles.insert(mesh.triangles.end(), part.triangles.begin(), part.triangles.end());
   return mesh;

@@ -27,20 +27,45 @@ Eigen::Matrix3Xd toPoints(const Json& values) {
   return points;
 }
 
-geometry::SurfaceMesh inlineMesh(const Json& entry, const std::string& pointer) {
-  geometry::SurfaceMesh mesh;
-  mesh.points = toPoints(entry["points"]);
-  const Json& triangles = entry["triangles"];
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (triangles[t][i].get<long long>() >= mesh.points.cols())
-        throw InputError(childPointer(childPointer(pointer + "/triangles", t), i),
-                         "There is no node " + triangles[t][i].dump() + "; the geometry has " +
-                             std::to_string(mesh.points.cols()) + ".");
-    mesh.triangles.push_back(triangles[t].get<std::array<int, 3>>());
+/// Lists of node indices below `nodeCount`, such as triangles.
+template <std::size_t corners>
+std::vector<std::array<int, corners>> nodeTuples(const Json& lists, const std::string& pointer, int nodeCount) {
+  std::vector<std::array<int, corners>> tuples;
+  for (std::size_t t = 0; t < lists.size(); ++t) {
+    const auto nodes = lists[t].get<std::array<int, corners>>();
+    for (std::size_t i = 0; i < corners; ++i) {
+      if (nodes[i] >= nodeCount)
+        throw InputError(
+            childPointer(childPointer(pointer, t), i),
+            "There is no node " + std::to_string(nodes[i]) + "; the geometry has " + std::to_string(nodeCount) + ".");
+      // Triangles are checked as a mesh.
+      if (corners != 3 && std::find(nodes.begin(), nodes.begin() + i, nodes[i]) != nodes.begin() + i)
+        throw InputError(
+            childPointer(childPointer(pointer, t), i), "Node " + std::to_string(nodes[i]) + " is named twice.");
+    }
+    tuples.push_back(nodes);
   }
-  geometry::checkMesh(mesh);
-  return mesh;
+  return tuples;
+}
+
+void addInlineMesh(const Json& entry, const std::string& pointer, PlacedGeometry& geometry) {
+  geometry.mesh.points = toPoints(entry["points"]);
+  const int nodes = geometry.nodeCount();
+  geometry.mesh.triangles = nodeTuples<3>(entry["triangles"], pointer + "/triangles", nodes);
+  geometry.segments = nodeTuples<2>(entry["segments"], pointer + "/segments", nodes);
+  geometry.tetrahedra = nodeTuples<4>(entry["tetrahedra"], pointer + "/tetrahedra", nodes);
+  if (geometry.mesh.triangles.empty() && geometry.segments.empty() && geometry.tetrahedra.empty())
+    throw InputError(pointer, "The mesh has no triangles, segments or tetrahedra.");
+  for (std::size_t g = 0; g < entry["groups"].size(); ++g) {
+    const Json& group = entry["groups"][g];
+    const std::string place = childPointer(pointer + "/groups", g) + "/nodes";
+    for (std::size_t i = 0; i < group["nodes"].size(); ++i)
+      if (group["nodes"][i].get<int>() >= nodes)
+        throw InputError(childPointer(place, i), "There is no node " + group["nodes"][i].dump() +
+                                                     "; the geometry has " + std::to_string(nodes) + ".");
+    geometry.mesh.groups[group["name"]] = group["nodes"].get<std::vector<int>>();
+  }
+  if (!geometry.mesh.triangles.empty()) geometry::checkMesh(geometry.mesh);
 }
 
 geometry::SurfaceMesh fileMesh(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
@@ -52,7 +77,8 @@ geometry::SurfaceMesh fileMesh(const Json& entry, const std::string& pointer, co
   return mesh;
 }
 
-geometry::SurfaceMesh makeMesh(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
+geometry::SurfaceMesh makeSurface(const Json& entry, const std::string& pointer,
+                                  const std::filesystem::path& directory) {
   const std::string type = entry["type"];
   if (type == "fork") {
     geometry::ForkShape shape;
@@ -69,7 +95,6 @@ geometry::SurfaceMesh makeMesh(const Json& entry, const std::string& pointer, co
     return geometry::makeStrip(entry["length"], entry["width"], entry["length_cells"], entry["width_cells"]);
   if (type == "grid")
     return geometry::makeGrid(entry["length"], entry["width"], entry["length_cells"], entry["width_cells"]);
-  if (type == "mesh") return inlineMesh(entry, pointer);
   if (type == "file") return fileMesh(entry, pointer, directory);
   geometry::SurfaceMesh points;
   points.points = toPoints(entry["points"]);
@@ -107,13 +132,6 @@ std::vector<int> nodesInBox(const Json& box, const std::string& pointer, const P
 
 }  // namespace
 
-std::vector<std::array<int, 3>> PlacedGeometry::globalTriangles() const {
-  std::vector<std::array<int, 3>> triangles = mesh.triangles;
-  for (auto& triangle : triangles)
-    for (int& node : triangle) node += firstNode;
-  return triangles;
-}
-
 std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
   const Json& entries = scene.normalized()["geometry"];
   const int dimension = scene.normalized()["dimension"];
@@ -124,7 +142,12 @@ std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
     PlacedGeometry geometry;
     geometry.name = entries[i]["name"];
     geometry.firstNode = nodeCount;
-    geometry.mesh = locate(pointer, [&] { return makeMesh(entries[i], pointer, scene.directory()); });
+    locate(pointer, [&] {
+      if (entries[i]["type"] == "mesh")
+        addInlineMesh(entries[i], pointer, geometry);
+      else
+        geometry.mesh = makeSurface(entries[i], pointer, scene.directory());
+    });
     place(entries[i], dimension, geometry.mesh.points, pointer);
     nodeCount += geometry.nodeCount();
     geometries.push_back(std::move(geometry));

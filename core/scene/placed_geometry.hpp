@@ -13,10 +13,19 @@ namespace pliant::scene {
 struct PlacedGeometry {
   std::string name;
   int firstNode = 0;
-  geometry::SurfaceMesh mesh;  ///< node indices within this geometry; `points` in place [m]
+  // Node indices are counted within this geometry; `points` are in place [m].
+  geometry::SurfaceMesh mesh;
+  std::vector<std::array<int, 2>> segments;
+  std::vector<std::array<int, 4>> tetrahedra;
 
   int nodeCount() const { return static_cast<int>(mesh.points.cols()); }
-  std::vector<std::array<int, 3>> globalTriangles() const;
+  /// The same elements with nodes counted through the scene.
+  template <std::size_t corners>
+  std::vector<std::array<int, corners>> global(std::vector<std::array<int, corners>> elements) const {
+    for (auto& element : elements)
+      for (int& node : element) node += firstNode;
+    return elements;
+  }
 };
 
 /// All geometry of a normalised scene. Throws base::InputError with a JSON pointer as location.

@@ -32,6 +32,15 @@ ParameterSpec length(std::string key, std::string description) {
   return positive(number(std::move(key), "", std::move(description), dimensions::length));
 }
 
+ParameterSpec nodeIndex() { return integer("", "", "A node.", 0, 1'000'000'000); }
+
+/// Elements of `corners` nodes each.
+ParameterSpec tuples(std::string key, std::string description, std::string item, int corners) {
+  return withDefault(list(std::move(key), std::move(description),
+                          list("", std::move(item), nodeIndex(), corners, corners), 0, 6 * largestMesh),
+                     Json::array());
+}
+
 ParameterSpec points() {
   return list("points", "Positions of the nodes.", vector("", "A position.", dimensions::length), 1, largestMesh);
 }
@@ -58,10 +67,16 @@ ParameterSpec geometries() {
                 "\"end\", \"left\" (largest y), \"right\".",
                 {length("length", "Size along x."), length("width", "Size along y."),
                  cells("length_cells", "Cells along x."), cells("width_cells", "Cells along y.")}),
-       geometry("mesh", "Triangles written in the scene.",
-                {points(), list("triangles", "Three node indices each, counted from 0.",
-                                list("", "A triangle.", integer("", "", "A node.", 0, 1'000'000'000), 3, 3), 0,
-                                2 * largestMesh)}),
+       geometry("mesh", "Nodes with triangles, segments or tetrahedra between them, written in the scene.",
+                {points(), tuples("triangles", "Three node indices each, counted from 0.", "A triangle.", 3),
+                 tuples("segments", "Two node indices each: edges of rods, or links.", "A segment.", 2),
+                 tuples("tetrahedra", "Four node indices each.", "A tetrahedron.", 4),
+                 withDefault(list("groups", "Named sets of nodes, to be selected by \"group\".",
+                                  object("group", "Nodes with a name.",
+                                         {name(), list("nodes", "Indices of nodes, counted from 0.", nodeIndex(), 1,
+                                                       largestMesh)}),
+                                  0, 1000),
+                             Json::array())}),
        geometry("file", "Triangles read from an STL, OBJ or PLY file.", [] {
          ParameterSpec path = text("path", "The file, relative to the scene.");
          path.kind = base::ValueKind::path;
@@ -206,6 +221,13 @@ ParameterSpec makeSceneSpec() {
                                                           "Factor of the tangent stiffness matrix.", dimensions::time)),
                                        0)}),
                    Json::object()),
+       entries("parameters", "Numbers of the scene as design parameters, besides the point masses.",
+               object("parameter", "A number of the scene that a designer may change: the window gives it a slider.",
+                      {name(), text("pointer", "JSON pointer of the number, such as \"/elements/0/thickness\"."),
+                       optional(number("minimum", "", "Smallest value in design, in SI; half the value if left out.",
+                                       dimensions::none)),
+                       optional(number("maximum", "", "Largest value in design, in SI; twice the value if left out.",
+                                       dimensions::none))})),
        entries("probes", "Nodes whose motion is reported.",
                object("probe", "A node whose trajectory and amplitude are reported.",
                       {name(), selection("at", "One node.")})),

@@ -13,9 +13,8 @@ namespace pliant::panels {
 namespace {
 
 QString kindOf(const mechanics::Model& model, int node) {
-  for (const auto& drive : model.drives)
-    if (std::find(drive->nodes().begin(), drive->nodes().end(), node) != drive->nodes().end())
-      return Inspector::tr("driven");
+  const std::vector<int> driven = model.drivenNodes();
+  if (std::binary_search(driven.begin(), driven.end(), node)) return Inspector::tr("driven");
   int free = 0;
   for (int axis = 0; axis < model.dimension; ++axis)
     if (model.dofs.freeIndex[static_cast<std::size_t>(node * model.dimension + axis)] >= 0) ++free;

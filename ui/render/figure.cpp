@@ -37,7 +37,7 @@ double largestMassOf(const mechanics::PointMass& mass) {
 }  // namespace
 
 FigureLayout::FigureLayout(const mechanics::Model& model)
-    : dimension(model.dimension), rest(toPoints(model.restPositions, model.dimension)) {
+    : dimension(model.dimension), rest(toPoints(model.restPositions, model.nodeCount(), model.dimension)) {
   std::vector<mechanics::Tether> tethers;
   for (const mechanics::DisplayPart& part : model.parts) {
     triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
@@ -56,15 +56,14 @@ FigureLayout::FigureLayout(const mechanics::Model& model)
   anchors.resize(3, static_cast<Eigen::Index>(tethers.size()));
   for (std::size_t i = 0; i < tethers.size(); ++i) {
     const int fixedEnd = nodes + static_cast<int>(i);
-    anchors.col(static_cast<Eigen::Index>(i)) = toPoints(tethers[i].anchor, dimension);
+    anchors.col(static_cast<Eigen::Index>(i)) = toPoints(tethers[i].anchor, 1, dimension);
     springs.push_back({tethers[i].node, fixedEnd});
     fixedPoints.push_back(fixedEnd);
   }
   const Points atRest = pose(model.restPositions);
   restExtent_ = extentOf(atRest);
   setReach(atRest);
-  for (const auto& drive : model.drives)
-    drivenNodes.insert(drivenNodes.end(), drive->nodes().begin(), drive->nodes().end());
+  drivenNodes = model.drivenNodes();
   for (const mechanics::PointMass& mass : model.pointMasses)
     massNodes.insert(massNodes.end(), mass.nodes.begin(), mass.nodes.end());
   std::sort(massNodes.begin(), massNodes.end());
@@ -82,7 +81,7 @@ void FigureLayout::setReach(const Points& reach) {
 
 Points FigureLayout::pose(const Eigen::VectorXd& positions) const {
   Points result(3, rest.cols() + anchors.cols());
-  result << toPoints(positions, dimension), anchors;
+  result << toPoints(positions, static_cast<int>(rest.cols()), dimension), anchors;
   return result;
 }
 

@@ -166,7 +166,7 @@ struct MotionView::Parts {
       reach.resize(3, trajectories.rows() * layout.rest.cols() + layout.anchors.cols());
       reach.rightCols(layout.anchors.cols()) = layout.anchors;
       for (Eigen::Index i = 0; i < trajectories.rows(); ++i) {
-        const Points sample = toPoints(trajectories.row(i).transpose(), layout.dimension);
+        const Points sample = toPoints(trajectories.row(i).transpose(), model->nodeCount(), layout.dimension);
         reach.middleCols(i * sample.cols(), sample.cols()) = sample;
         if (layout.triangles.empty()) continue;
         const Vector values = stretch(trajectories.row(i).transpose());

@@ -32,9 +32,9 @@ void setPositions(vtkPoints* points, const Points& positions, const std::vector<
 
 }  // namespace
 
-Points toPoints(const Eigen::VectorXd& positions, int dimension) {
-  Points points = Points::Zero(3, positions.size() / dimension);
-  points.topRows(dimension) = positions.reshaped(dimension, points.cols());
+Points toPoints(const Eigen::VectorXd& coordinates, int nodes, int dimension) {
+  Points points = Points::Zero(3, nodes);
+  points.topRows(dimension) = coordinates.head(nodes * dimension).reshaped(dimension, nodes);
   return points;
 }
 

@@ -21,7 +21,7 @@ namespace pliant::render {
 using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
 
 /// Positions of all nodes (size n * dimension) as points, padded with 0.
-Points toPoints(const Eigen::VectorXd& positions, int dimension);
+Points toPoints(const Eigen::VectorXd& coordinates, int nodes, int dimension);
 
 void setColor(vtkActor* actor, const Color& color);
 

@@ -110,18 +110,18 @@ void TestModel::externalForcesAreGravityAndLoads() {
 
 void TestModel::translationMovesItsNodes() {
   const auto drive = makeTranslation({0}, vector({0, 2, 0}), {{{1, 0.5, -pi / 2}}});
-  QVERIFY((drive->position(vector({1, 1, 1}), 0.8) - vector({1, 1 + std::sin(0.8), 1})).norm() <= 1e-15);
+  QVERIFY((drive->values(vector({1, 1, 1}), 0.8) - vector({1, 1 + std::sin(0.8), 1})).norm() <= 1e-15);
 }
 
 void TestModel::rotationIsExact() {
   const Vector center = vector({1, 0, 0});
   const auto drive = makeRotation({0}, center, {0, 0, 5}, signal(pi / 2));
-  QVERIFY((drive->position(vector({3, 0, 7}), 0) - vector({1, 2, 7})).norm() <= 1e-14);  // a quarter turn at τ = 0
+  QVERIFY((drive->values(vector({3, 0, 7}), 0) - vector({1, 2, 7})).norm() <= 1e-14);  // a quarter turn at τ = 0
   const Vector rest = vector({0.3, -0.4, 2});
   for (const double tau : {0.1, 1.0, 2.5})
-    QVERIFY(std::abs((drive->position(rest, tau) - center).norm() - (rest - center).norm()) <= 1e-14);
+    QVERIFY(std::abs((drive->values(rest, tau) - center).norm() - (rest - center).norm()) <= 1e-14);
   const auto plane = makeRotation({0}, vector({1, 0}), {0, 0, 0}, signal(pi / 2));  // its axis is z
-  QVERIFY((plane->position(vector({3, 0}), 0) - vector({1, 2})).norm() <= 1e-14);
+  QVERIFY((plane->values(vector({3, 0}), 0) - vector({1, 2})).norm() <= 1e-14);
 }
 
 void TestModel::contradictionsAreRefused() {

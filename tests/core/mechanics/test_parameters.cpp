@@ -47,11 +47,15 @@ void TestParameters::derivativesAgreeWithDifferences() {
     const Matrix mass = difference([&](double by) { return Matrix(shifted(by).massMatrix()); });
     const Vector force = difference([&](double by) { return shifted(by).externalForce(tau); });
     const Vector elastic = difference(gradient);
-    const double size = 1 + mass.norm() + force.norm() + elastic.norm();
-    QVERIFY((Matrix(parameter.massDerivative(model)) - mass).norm() <= 1e-9 * size);
-    QVERIFY((parameter.externalForceDerivative(model, tau) - force).norm() <= 1e-9 * size);
-    QVERIFY((parameter.gradientDerivative(model, x) - elastic).norm() <= 1e-9 * size);
-    QVERIFY(mass.norm() + force.norm() + elastic.norm() > 0);
+    const Vector prescribed =
+        difference([&](double by) { return shifted(by).configuration(Vector::Zero(model.dofs.freeCount()), tau); });
+    const double size = 1 + mass.norm() + force.norm() + elastic.norm() + prescribed.norm();
+    const auto derivative = parameter.derivative(model);
+    QVERIFY((Matrix(derivative->mass()) - mass).norm() <= 1e-9 * size);
+    QVERIFY((derivative->externalForce(tau) - force).norm() <= 1e-9 * size);
+    QVERIFY((derivative->gradient(x.transpose()).transpose() - elastic).norm() <= 1e-9 * size);
+    QVERIFY((derivative->prescribed(tau) - prescribed).norm() <= 1e-9 * size);
+    QVERIFY(mass.norm() + force.norm() + elastic.norm() + prescribed.norm() > 0);
   }
 }
 

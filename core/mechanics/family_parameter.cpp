@@ -1,0 +1,145 @@
+#include "core/mechanics/family_parameter.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/mechanics/checks.hpp"
+#include "core/mechanics/elastic_assembler.hpp"
+
+namespace pliant::mechanics {
+
+namespace {
+
+/// Neighbours of a value, in steps, and their weights in the first derivative times the step.
+struct Stencil {
+  std::array<double, 5> offsets;
+  std::array<double, 5> weights;
+};
+
+// Order 4, and nothing but the place: in the middle, and at either end of what the family knows.
+constexpr std::array<Stencil, 3> stencils = {
+    Stencil{{-2, -1, 0, 1, 2}, {1. / 12, -8. / 12, 0, 8. / 12, -1. / 12}},
+    Stencil{{0, 1, 2, 3, 4}, {-25. / 12, 48. / 12, -36. / 12, 16. / 12, -3. / 12}},
+    Stencil{{0, -1, -2, -3, -4}, {25. / 12, -48. / 12, 36. / 12, -16. / 12, 3. / 12}}};
+
+class FamilyDerivative final : public ModelDerivative {
+ public:
+  struct Neighbour {
+    double weight;
+    std::shared_ptr<const Model> model;
+  };
+
+  FamilyDerivative(const Model& model, std::vector<Neighbour> neighbours)
+      : ModelDerivative(model), neighbours_(std::move(neighbours)) {}
+
+  SparseMatrix mass() const override {
+    SparseMatrix sum = ModelDerivative::mass();
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->massMatrix();
+    return sum;
+  }
+
+  Vector externalForce(double tau) const override {
+    Vector sum = ModelDerivative::externalForce(tau);
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->externalForce(tau);
+    return sum;
+  }
+
+  Matrix gradient(const Matrix& x) const override {
+    Matrix padded(ElasticAssembler::paddedRows(static_cast<int>(x.rows())), x.cols()), gradient;
+    padded.topRows(x.rows()) = x;
+    padded.bottomRows(padded.rows() - x.rows()).rowwise() = x.row(0);
+    Matrix sum = ModelDerivative::gradient(x);
+    for (const Neighbour& n : neighbours_) {
+      ElasticAssembler(n.model).evaluate(padded, gradient, nullptr);
+      sum += n.weight * gradient.topRows(x.rows());
+    }
+    return sum;
+  }
+
+  Vector prescribed(double tau) const override {
+    Vector sum = ModelDerivative::prescribed(tau);
+    const Vector free = Vector::Zero(model_.dofs.freeCount());
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->configuration(free, tau);
+    return sum;
+  }
+
+  double massDamping() const override {
+    double sum = 0;
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->massDamping;
+    return sum;
+  }
+
+  double stiffnessDamping() const override {
+    double sum = 0;
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->stiffnessDamping;
+    return sum;
+  }
+
+ private:
+  std::vector<Neighbour> neighbours_;
+};
+
+class FamilyMember final : public DesignParameter {
+ public:
+  FamilyMember(int index, FamilyParameter parameter, std::shared_ptr<const ModelFamily> family)
+      : index_(index), parameter_(std::move(parameter)), family_(std::move(family)) {}
+
+  std::string name() const override { return parameter_.name; }
+  base::Dimension dimension() const override { return parameter_.dimension; }
+  std::string pointer() const override { return parameter_.pointer; }
+  double value(const Model& model) const override { return model.familyValues.at(index_); }
+  double minimum(const Model&) const override { return parameter_.minimum; }
+  double maximum(const Model&) const override { return parameter_.maximum; }
+
+  Model withValue(const Model& model, double value) const override {
+    if (!std::isfinite(value)) throw base::InputError("", "parameter '" + parameter_.name + "' must be finite");
+    std::vector<double> values = model.familyValues;
+    values.at(index_) = value;
+    Model changed = (*family_)(values);
+    if (changed.coordinateCount() != model.coordinateCount() ||
+        changed.dofs.freeCoordinates != model.dofs.freeCoordinates)
+      throw base::InputError("", "parameter '" + parameter_.name + "' must not change which coordinates there are");
+    changed.parameters = model.parameters;
+    for (const auto& other : model.parameters)
+      if (const double kept = other->value(model); other.get() != this && other->value(changed) != kept)
+        changed = other->withValue(changed, kept);
+    return changed;
+  }
+
+  std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
+    for (const Stencil& stencil : stencils) try {
+        return std::make_unique<FamilyDerivative>(model, neighbours(model, stencil));
+      } catch (const base::InputError&) {
+        // The family ends nearby; the last stencil's error is the one to report.
+        if (&stencil == &stencils.back()) throw;
+      }
+    return nullptr;
+  }
+
+ private:
+  std::vector<FamilyDerivative::Neighbour> neighbours(const Model& model, const Stencil& stencil) const {
+    constexpr double relativeStep = 2e-3;
+    const double middle = value(model);
+    const double step = relativeStep * std::max(std::abs(middle), 0.1 * (parameter_.maximum - parameter_.minimum));
+    std::vector<FamilyDerivative::Neighbour> neighbours;
+    for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
+      if (stencil.weights[i] != 0)
+        neighbours.push_back({stencil.weights[i] / step,
+                              std::make_shared<const Model>(withValue(model, middle + stencil.offsets[i] * step))});
+    return neighbours;
+  }
+
+  int index_;
+  FamilyParameter parameter_;
+  std::shared_ptr<const ModelFamily> family_;
+};
+
+}  // namespace
+
+std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,
+                                                           std::shared_ptr<const ModelFamily> family) {
+  return std::make_shared<FamilyMember>(index, std::move(parameter), std::move(family));
+}
+
+}  // namespace pliant::mechanics

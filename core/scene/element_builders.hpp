@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/mechanics/model.hpp"
+#include "core/mechanics/shell.hpp"
+#include "core/scene/placed_geometry.hpp"
+
+namespace pliant::scene {
+
+/// What the builder of one entry of "elements" reads and adds to.
+struct ElementContext {
+  const Json& entry;           ///< normalised
+  const std::string& pointer;  ///< of the entry
+  const Json* material;        ///< the entry's material, normalised; null for elements without one
+  const PlacedGeometry& geometry;
+  mechanics::MassMatrix massMatrix;
+  mechanics::Model& model;                    ///< energies and scalar coordinates are added to it
+  mechanics::DisplayPart& part;               ///< of the geometry
+  std::vector<Eigen::Triplet<double>>& mass;  /// on all coordinates [kg]
+};
+
+using ElementBuilder = void (*)(const ElementContext&);
+
+/// By "type". Builders throw base::InputError.
+const std::map<std::string, ElementBuilder>& elementBuilders();
+
+}  // namespace pliant::scene

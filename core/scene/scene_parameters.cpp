@@ -1,0 +1,78 @@
+#include "core/scene/scene_parameters.hpp"
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/mechanics/family_parameter.hpp"
+#include "core/scene/input_error_location.hpp"
+#include "core/scene/json_text.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+
+namespace {
+
+/// The lists whose numbers shape the model.
+bool shapesTheModel(const std::string& pointer) {
+  for (const char* list : {"/geometry/", "/materials/", "/elements/", "/springs/", "/drives/", "/loads/", "/damping/"})
+    if (pointer.starts_with(list)) return true;
+  return false;
+}
+
+/// The entry's value in SI, with its bounds: as given, or half and twice the value.
+mechanics::FamilyParameter declare(const Scene& scene, const Json& entry, const std::string& place) {
+  mechanics::FamilyParameter parameter;
+  parameter.name = entry["name"];
+  parameter.pointer = entry["pointer"];
+  const base::ParameterSpec* spec = locate(place + "/pointer", [&] { return specAt(scene, parameter.pointer); });
+  const auto path = Json::json_pointer(parameter.pointer);
+  const bool isNumber = spec && spec->kind == base::ValueKind::number && scene.normalized().contains(path);
+  if (!isNumber || !shapesTheModel(parameter.pointer))
+    throw InputError(place + "/pointer", quote(parameter.pointer) +
+                                             " names no number of a geometry, material, element, spring, drive, load "
+                                             "or the damping (masses are parameters of their own).");
+  parameter.dimension = spec->dimension;
+  const double value = scene.normalized()[path];
+  parameter.minimum = entry.value("minimum", std::min(value / 2, value * 2));
+  parameter.maximum = entry.value("maximum", std::max(value / 2, value * 2));
+  if (!(parameter.minimum < parameter.maximum))
+    throw InputError(
+        place + "/maximum", "The maximum must be above the minimum; where the value is 0 both are needed.");
+  if (value < parameter.minimum || value > parameter.maximum)
+    throw InputError(
+        place, "The value at " + quote(parameter.pointer) + " is not between the minimum and the maximum.");
+  return parameter;
+}
+
+}  // namespace
+
+void addSceneParameters(const Scene& scene, mechanics::Model& model, mechanics::Model (*build)(const Scene&)) {
+  const Json& entries = scene.normalized()["parameters"];
+  if (entries.empty()) return;
+  std::vector<mechanics::FamilyParameter> declared;
+  std::vector<std::string> pointers;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::string place = childPointer("/parameters", i);
+    declared.push_back(declare(scene, entries[i], place));
+    if (std::find(pointers.begin(), pointers.end(), declared.back().pointer) != pointers.end())
+      throw InputError(place + "/pointer", "There is already a parameter for " + quote(declared.back().pointer) + ".");
+    pointers.push_back(declared.back().pointer);
+  }
+  const auto family =
+      std::make_shared<const mechanics::ModelFamily>([scene, pointers, build](const std::vector<double>& values) {
+        Scene changed = scene;
+        for (std::size_t i = 0; i < pointers.size(); ++i)
+          if (changed.normalized()[Json::json_pointer(pointers[i])].get<double>() != values[i])
+            changed = changed.withValue(pointers[i], values[i]);
+        mechanics::Model member = build(changed);
+        member.familyValues = values;
+        return member;
+      });
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    model.familyValues.push_back(scene.normalized()[Json::json_pointer(pointers[i])]);
+    model.parameters.push_back(mechanics::makeFamilyParameter(static_cast<int>(i), std::move(declared[i]), family));
+  }
+}
+
+}  // namespace pliant::scene
