@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <cstring>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 namespace pliant::math {
 
@@ -66,12 +69,25 @@ struct Packet {
   friend Packet sqrt(const Packet& a) { return map(squareRoot, a); }
   /// Within 2 units in the last place of std::atan2; the sign of a zero does not count.
   friend Packet atan2(const Packet& y, const Packet& x) { return map(arcTangent, y, x); }
+  /// Both within 4e-16 of the exact values, for |angle| up to 1e5.
+  friend void sineAndCosine(const Packet& angle, Packet& sine, Packet& cosine) {
+    for (int i = 0; i < registerCount; ++i) sineAndCosine(angle.registers[i], sine.registers[i], cosine.registers[i]);
+  }
 
  private:
   static Register squareRoot(const Register& a) {
+    // Named, because the compiler would go through the lanes one by one to set errno where a number is negative.
+#if defined(__AVX512F__)
+    return _mm512_sqrt_pd(a);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(a);
+#elif defined(__SSE2__)
+    return _mm_sqrt_pd(a);
+#else
     Register root;
     for (int i = 0; i < lanes; ++i) root[i] = std::sqrt(a[i]);
     return root;
+#endif
   }
 
   /// The angle is brought below π/8 by its symmetries, and atan(t) = t + t³ P(t²) there, with the polynomial P of
@@ -98,7 +114,37 @@ struct Packet {
     angle = x < zero ? M_PI - angle : angle;
     return y < zero ? -angle : angle;
   }
+
+  /// The nearest multiple of π/2 is taken off, in three parts so that nothing is lost, and the Taylor series do the
+  /// rest (|t| <= π/4: their first terms left out are below 6e-17).
+  static void sineAndCosine(const Register& angle, Register& sine, Register& cosine) {
+    using Integers = long long __attribute__((vector_size(lanes * sizeof(long long))));
+    constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, which then stands in the lowest bits
+    constexpr double halfPi[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};  // 33, 33 and 53 bits
+    const Register shifted = angle * M_2_PI + shift, multiple = shifted - shift;
+    const Register t = ((angle - multiple * halfPi[0]) - multiple * halfPi[1]) - multiple * halfPi[2];
+    const Register squared = t * t;
+    Register odd{}, even{};
+    for (double n = 14; n >= 2; n -= 2) {
+      odd = (odd + 1.0) * squared * (-1 / (n * (n + 1)));
+      even = (even + 1.0) * squared * (-1 / ((n + 1) * (n + 2)));
+    }
+    odd = t + t * odd;
+    even = (even + 1.0) * squared * -0.5 + 1.0;
+    Integers quadrant;
+    std::memcpy(&quadrant, &shifted, sizeof(quadrant));
+    const auto isSwapped = (quadrant & 1) != 0;
+    sine = isSwapped ? even : odd;
+    cosine = isSwapped ? odd : even;
+    sine = (quadrant & 2) != 0 ? -sine : sine;
+    cosine = ((quadrant + 1) & 2) != 0 ? -cosine : cosine;
+  }
 };
+
+inline void sineAndCosine(double angle, double& sine, double& cosine) {
+  sine = std::sin(angle);
+  cosine = std::cos(angle);
+}
 
 /// How many samples one evaluation with the scalar `T` covers.
 template <class T>

@@ -8,6 +8,7 @@
 #include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
 #include "core/mechanics/prescribed_motion.hpp"
+#include "core/mechanics/rod.hpp"
 #include "core/mechanics/shell.hpp"
 #include "core/mechanics/solid.hpp"
 #include "core/mechanics/spring.hpp"
@@ -72,6 +73,31 @@ Model solidExample(std::mt19937& random, int) {
   for (double& factor : factors) factor = uniform(random, 0.5, 2);
   const SolidMaterial material{uniform(random, 1e5, 1e7), uniform(random, -0.3, 0.45), uniform(random, 500, 2000)};
   model.energies.push_back(makeSolid(model.restPositions, mesh.tetrahedra, material, factors));
+  model.finish();
+  return model;
+}
+
+/// A rod with a kink, a joint of three segments and a frame at one end, of sections so thick that all its energies are
+/// of one size. Its twists are turned as far as its nodes are moved.
+Model rodExample(std::mt19937& random, int) {
+  Model model;
+  model.dimension = 3;
+  model.restPositions.resize(15);
+  model.restPositions << 0, 0, 0, 2, 0, 0.5, 3, 2, 0, 3, 3, 2, 5, 2, -1;
+  model.restPositions += randomVector(random, 15, 0.2);
+  std::vector<RodSegment> segments;
+  for (const std::array<int, 2> nodes : {std::array{0, 1}, {2, 1}, {2, 3}, {4, 2}}) {
+    RodSegment segment;
+    segment.nodes = nodes;
+    segment.material = {.youngModulus = uniform(random, 1, 3), .shearModulus = uniform(random, 1, 2), .density = 1};
+    segment.section = rectangularSection(uniform(random, 1, 2), uniform(random, 1, 2));
+    segment.director = randomVector(random, 3, 1);
+    segment.prestrain = randomVector(random, 3, 0.3);
+    segments.push_back(segment);
+  }
+  const RodNetwork rods(model.restPositions, segments, {0}, model.coordinateCount());
+  model.energies = rods.energies();
+  model.addScalars(rods.scalarCount());
   model.finish();
   return model;
 }
@@ -214,6 +240,7 @@ const std::vector<EnergyKind>& energyKinds() {
     }
     list.push_back(kind("torsion_spring", 2, torsionSpringExample));
     list.push_back(kind("hinge_bending", 3, hingeExample));
+    list.push_back(kind("rod", 3, rodExample));
     list.push_back(kind("solid", 3, solidExample));
     return list;
   }();

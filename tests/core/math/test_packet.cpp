@@ -31,6 +31,7 @@ class TestPacket : public QObject {
   void arithmeticIsThatOfDoubles();
   void anglesAgreeWithTheLibrary();
   void anglesOnTheAxes();
+  void sineAndCosineAgreeWithTheLibrary();
 };
 
 void TestPacket::arithmeticIsThatOfDoubles() {
@@ -74,6 +75,23 @@ void TestPacket::anglesOnTheAxes() {
   const double x[] = {1, 0, -1, 0, 0, 1, -1, 1e-320}, y[] = {0, 1, 0, -1, 0, 1, -1, 0};
   const Packet angles = atan2(toPacket(y), toPacket(x));
   for (int i = 0; i < Packet::width; ++i) QCOMPARE(angles[i], std::atan2(y[i], x[i]));
+}
+
+void TestPacket::sineAndCosineAgreeWithTheLibrary() {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> sign(-1, 1), exponent(-9, 5);
+  std::uniform_int_distribution<int> quarter(-40, 40);
+  for (int trial = 0; trial < 20000; ++trial) {
+    double angle[Packet::width];
+    for (double& a : angle) a = trial % 2 ? sign(random) * std::pow(10, exponent(random)) : quarter(random) * M_PI_4;
+    Packet sine, cosine;
+    sineAndCosine(toPacket(angle), sine, cosine);
+    for (int i = 0; i < Packet::width; ++i) {
+      QVERIFY(std::abs(sine[i] - std::sin(angle[i])) <= 4e-16);
+      QVERIFY(std::abs(cosine[i] - std::cos(angle[i])) <= 4e-16);
+      if (std::abs(angle[i]) < 1e-3) QVERIFY(ulps(sine[i], std::sin(angle[i])) <= 2);  // small ones keep their digits
+    }
+  }
 }
 
 QTEST_GUILESS_MAIN(TestPacket)

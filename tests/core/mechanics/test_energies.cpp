@@ -112,6 +112,7 @@ void TestEnergies::rigidMotionsChangeNothing() {
   QFETCH(int, kind);
   const std::string& name = mechanics::energyKinds()[kind].name;
   if (name.starts_with("anchored") || name.starts_with("grounded")) return;  // tied to a place
+  if (name.starts_with("rod")) return;  // turning it changes its twists as well: see TestRod
   forExamples([](std::shared_ptr<const mechanics::Model> model, std::mt19937& random) {
     const mechanics::ElasticAssembler assembler(model);
     const int dimension = model->dimension;
