@@ -24,6 +24,20 @@ struct HingeElement {
 
   template <class T>
   T evaluate(const std::array<T, 12>& x, std::array<T, 12>* gradient, std::array<T, packedSize(12)>* hessian) const {
+    return evaluateAgainst<T>(restAngle, x, gradient, hessian, nullptr);
+  }
+
+  /// Minus the derivatives of E by θ₀ and by θ₀ and x.
+  template <class T>
+  struct RestAngleDerivative {
+    T moment;
+    std::array<T, 12> mixed;
+  };
+
+  /// The same with another rest angle; outputs that are null are not computed.
+  template <class T>
+  T evaluateAgainst(const T& zeroAngle, const std::array<T, 12>& x, std::array<T, 12>* gradient,
+                    std::array<T, packedSize(12)>* hessian, RestAngleDerivative<T>* byRestAngle) const {
     using std::sqrt;
     std::array<T, 3> e, u, v;
     for (int i = 0; i < 3; ++i) {
@@ -33,13 +47,17 @@ struct HingeElement {
     }
     const std::array<T, 3> n1 = cross(e, u), n2 = cross(v, e);
     const T squaredLength = dot(e, e), length = sqrt(squaredLength);
-    const T deviation = angle(-(length * dot(n1, v)), dot(n1, n2)) - restAngle;
+    const T deviation = angle(-(length * dot(n1, v)), dot(n1, n2)) - zeroAngle;
     const T moment = (2.0 * stiffness) * deviation;  // dE/dθ
-    if (gradient || hessian) {
+    if (gradient || hessian || byRestAngle) {
       const T inverse = 1.0 / squaredLength;
       const Side<T> one(e, u, n1, squaredLength, length, inverse);
       const Side<T> two(e, v, n2, squaredLength, length, inverse);
       if (gradient) fillGradient(moment, one, two, *gradient);
+      if (byRestAngle) {
+        byRestAngle->moment = moment;
+        fillGradient(T(2.0 * stiffness), one, two, byRestAngle->mixed);
+      }
       if (hessian) {
         std::array<T, 3> epsilon;
         for (int i = 0; i < 3; ++i) epsilon[i] = (moment * inverse) * e[i];

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/mechanics/element_energy.hpp"
+#include "core/mechanics/hinge_element.hpp"
 
 namespace pliant::mechanics {
 
@@ -71,6 +72,37 @@ struct JointAngleElement {
     add(at + 1, 3, diagonal);
     add(at, 3, -mixed);
     add(at + 1, 2, -mixed);
+  }
+};
+
+/// A servo in space about an axis through two joints x₀ and x₁: a HingeElement of the links' joints x₂ and x₃ whose
+/// rest angle is θ₀ + φ, with φ the scalar coordinate behind the four nodes over `scalarLength`.
+struct AxisServoElement {
+  static constexpr int coordinates = 13;
+  static constexpr std::string_view name = "servo";
+
+  HingeElement hinge;   ///< with half the servo's stiffness
+  double scalarLength;  ///< [m]
+
+  template <class T>
+  T evaluate(const std::array<T, 13>& x, std::array<T, 13>* gradient, std::array<T, packedSize(13)>* hessian) const {
+    std::array<T, 12> nodes, nodeGradient;
+    std::array<T, packedSize(12)> nodeHessian;
+    HingeElement::RestAngleDerivative<T> byAngle;
+    std::copy_n(x.begin(), 12, nodes.begin());
+    const T restAngle = hinge.restAngle + (1 / scalarLength) * x[12];
+    const T energy = hinge.evaluateAgainst(
+        restAngle, nodes, gradient ? &nodeGradient : nullptr, hessian ? &nodeHessian : nullptr, &byAngle);
+    if (gradient) {
+      std::copy_n(nodeGradient.begin(), 12, gradient->begin());
+      (*gradient)[12] = (-1 / scalarLength) * byAngle.moment;
+    }
+    if (hessian) {
+      std::copy_n(nodeHessian.begin(), packedSize(12), hessian->begin());
+      for (int i = 0; i < 12; ++i) (*hessian)[packedIndex(12, i)] = (-1 / scalarLength) * byAngle.mixed[i];
+      (*hessian)[packedIndex(12, 12)] = 2 * hinge.stiffness / (scalarLength * scalarLength);
+    }
+    return energy;
   }
 };
 

@@ -1,9 +1,7 @@
-#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
-#include "core/mechanics/joint_angle_element.hpp"
 #include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/mechanism_elements.hpp"
 
@@ -95,25 +93,6 @@ std::shared_ptr<const Energy> makeLocalSpring(int dimension, const AttachmentPoi
   return dimension == 1   ? localSpring<1, 1>(difference, restLength, law)
          : dimension == 2 ? localSpring<2, 1>(difference, restLength, law)
                           : localSpring<3, 1>(difference, restLength, law);
-}
-
-std::shared_ptr<const Energy> makeTorsionSpring(const Vector& restPositions, int a, int joint, int b,
-                                                double stiffness) {
-  const std::array<int, 3> nodes = {a, joint, b};
-  requireNodes(nodes, static_cast<int>(restPositions.size()) / 2, "a torsion spring");
-  requireNotNegative(stiffness, "a torsion spring's stiffness");
-  const auto component = [&](int node, int axis) {
-    return restPositions[2 * node + axis] - restPositions[2 * joint + axis];
-  };
-  const double cross = component(a, 0) * component(b, 1) - component(a, 1) * component(b, 0);
-  const double dot = component(a, 0) * component(b, 0) + component(a, 1) * component(b, 1);
-  const double length = std::hypot(cross, dot);  // the product of both lengths
-  if (!(length > 0) || a == b)
-    throw base::InputError("", "a torsion spring needs two links that leave its joint for different nodes");
-  std::array<int, 6> coordinates;
-  for (int i = 0; i < 6; ++i) coordinates[i] = 2 * nodes[i / 2] + i % 2;
-  return std::make_shared<ElementEnergy<JointAngleElement<false>>>(
-      std::vector{JointAngleElement<false>{stiffness, dot / length, cross / length}}, std::vector{coordinates});
 }
 
 }  // namespace pliant::mechanics

@@ -58,6 +58,16 @@ std::shared_ptr<const Energy> makeLocalSpring(int dimension, const AttachmentPoi
 /// rest (JointAngleElement). With a stiffness like a rigid link's it is a rigid angle. Throws base::InputError.
 std::shared_ptr<const Energy> makeTorsionSpring(const Vector& restPositions, int a, int joint, int b, double stiffness);
 
+/// A servo of the stiffness k [N m/rad] in the plane at `joint`: a torsion spring without moment where the link from
+/// there to b has turned by the angle `scalar` / `scalarLength` against the link to a. `scalar` is the index of a
+/// scalar coordinate [m] (Model::scalarCount), driven as a rule. Throws base::InputError.
+std::shared_ptr<const Energy> makeServo(const Vector& restPositions, int a, int joint, int b, double stiffness,
+                                        int scalar, double scalarLength);
+
+/// A servo in space that turns node b against node a about the axis through the joints `from` and `to`, right-handed.
+std::shared_ptr<const Energy> makeAxisServo(const Vector& restPositions, int a, int from, int to, int b,
+                                            double stiffness, int scalar, double scalarLength);
+
 /// The largest relative violation of any rigid link or joint at `positions`: a link's change of length over its length,
 /// a joint's distance from its place in a bar over the bar's length. None if the model has no such constraint.
 std::optional<double> constraintViolation(const Model& model, const Vector& positions);
