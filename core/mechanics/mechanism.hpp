@@ -31,23 +31,13 @@ std::vector<std::shared_ptr<const Energy>> makeRigidBar(int dimension, const Vec
 void addBarMass(int dimension, const Vector& restPositions, const std::vector<int>& joints, double mass,
                 MassMatrix kind, std::vector<Eigen::Triplet<double>>& entries);
 
-/// A point that moves with one or two joints, or a fixed place.
-struct AttachmentPoint {
-  struct Term {
-    int node;
-    double weight;        ///< of the node's position
-    double turnedWeight;  ///< of the position turned by 90 degrees counter-clockwise (2 dimensions)
-  };
-  std::vector<Term> terms;
-  Vector constant;  ///< size: dimension [m]
-};
-
+/// Where springs can be attached: a node, a fixed place.
 AttachmentPoint attachedToNode(int dimension, int node);
 AttachmentPoint fixedPlace(const Vector& place);
 /// In the local coordinates of the link from joint a to joint b [m]: `along` from a towards b, `across` to the left of
 /// it (0 in 3 dimensions). Throws base::InputError.
 AttachmentPoint attachedToLink(int dimension, const Vector& restPositions, int a, int b, double along, double across);
-/// Its position [m].
+/// Where such a point is [m].
 Vector positionOf(const AttachmentPoint& point, int dimension, const Vector& positions);
 
 /// A spring between two such points (thesis 2.A.5); e = distance - restLength [m]. Throws base::InputError.

@@ -54,14 +54,27 @@ struct Tether {
   Vector anchor;  ///< size dimension [m]
 };
 
+/// A point that moves with some nodes (or a fixed place): constant + Σ (weight x + turnedWeight Jx) of their positions
+/// x, with J the quarter turn counter-clockwise in 2 dimensions.
+struct AttachmentPoint {
+  struct Term {
+    int node;
+    double weight;
+    double turnedWeight;
+  };
+  std::vector<Term> terms;
+  Vector constant;  ///< size dimension [m]
+};
+
 /// Where the coordinates of one geometry of the scene stand, and what to draw of it.
 struct DisplayPart {
   std::string name;
   int firstNode = 0;
   int nodeCount = 0;
-  std::vector<std::array<int, 3>> triangles;  ///< global node indices
-  std::vector<std::array<int, 2>> segments;   ///< springs between nodes
-  std::vector<Tether> tethers;                ///< springs to fixed places
+  std::vector<std::array<int, 3>> triangles;                    ///< global node indices
+  std::vector<std::array<int, 2>> segments;                     ///< springs between nodes, and links
+  std::vector<Tether> tethers;                                  ///< springs to fixed places
+  std::vector<std::array<AttachmentPoint, 2>> attachedSprings;  ///< springs between points of links
 };
 
 /// Which coordinates are unknown.

@@ -179,6 +179,16 @@ Model torsionSpringExample(std::mt19937& random, int) {
   return model;
 }
 
+Model servoExample(std::mt19937& random, int dimension) {
+  Model model = randomNodes(random, dimension, dimension + 1);
+  const double stiffness = uniform(random, 1, 10), lever = uniform(random, 0.5, 2);
+  const int scalar = model.addScalars(1);
+  model.energies.push_back(dimension == 2 ? makeServo(model.restPositions, 0, 1, 2, stiffness, scalar, lever)
+                                          : makeAxisServo(model.restPositions, 0, 1, 2, 3, stiffness, scalar, lever));
+  model.finish();
+  return model;
+}
+
 Model pointMassExample(std::mt19937& random) {
   Model model = springExample(random, 3);
   model.gravity = randomVector(random, 3, 10);
@@ -239,6 +249,8 @@ const std::vector<EnergyKind>& energyKinds() {
                             [joints](std::mt19937& random, int d) { return rigidBarExample(random, d, joints); }));
     }
     list.push_back(kind("torsion_spring", 2, torsionSpringExample));
+    list.push_back(kind("servo", 2, servoExample));
+    list.push_back(kind("servo", 3, servoExample));
     list.push_back(kind("hinge_bending", 3, hingeExample));
     list.push_back(kind("rod", 3, rodExample));
     list.push_back(kind("solid", 3, solidExample));

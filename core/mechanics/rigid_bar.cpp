@@ -107,8 +107,7 @@ NodeCombination<dimension, n> restCombination(const Vector& rest, const std::arr
   Matrix span(dimension, n - 2);
   for (int k = 1; k < n - 1; ++k) span.col(k - 1) = point(k) - point(0);
   if constexpr (dimension == 2) {
-    const Vector across = Eigen::Vector2d(-span(1, 0), span(0, 0));
-    const double t = arm.dot(across) / across.squaredNorm();
+    const double t = (span(0, 0) * arm[1] - span(1, 0) * arm[0]) / span.squaredNorm();
     r.turnedWeights[0] = t;
     r.turnedWeights[1] = -t;
   }

@@ -1,7 +1,12 @@
 #include "core/scene/element_builders.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include "core/base/error.hpp"
+#include "core/mechanics/solid.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/mechanism_builders.hpp"
 
 namespace pliant::scene {
 namespace {
@@ -20,16 +25,42 @@ mechanics::ShellMaterial shellMaterial(const ElementContext& context) {
   return {material["young_modulus"], material["poisson_ratio"], material["density"], context.entry["thickness"]};
 }
 
+/// The factors of an entry, which live as long as this.
+struct Factors {
+  std::vector<double> stiffness, thickness;
+
+  explicit Factors(const ElementContext& context, std::size_t elementCount)
+      : stiffness(read(context, "stiffness_factors", elementCount)),
+        thickness(read(context, "thickness_factors", elementCount)) {}
+
+  operator mechanics::TriangleFactors() const { return {stiffness, thickness}; }
+
+ private:
+  static std::vector<double> read(const ElementContext& context, const char* key, std::size_t elementCount) {
+    if (!context.entry.contains(key)) return {};
+    auto factors = context.entry[key].get<std::vector<double>>();
+    if (!factors.empty() && factors.size() != elementCount)
+      throw InputError(context.pointer + "/" + key, "Expected a factor for each of the " +
+                                                        std::to_string(elementCount) + " elements, found " +
+                                                        std::to_string(factors.size()) + ".");
+    return factors;
+  }
+};
+
 void addMembrane(const ElementContext& context) {
   mechanics::Model& model = context.model;
   const mechanics::Triangles triangles = trianglesOf(context);
   const mechanics::ShellMaterial material = shellMaterial(context);
-  model.energies.push_back(mechanics::makeMembrane(model.dimension, model.restPositions, triangles, material));
-  mechanics::addShellMass(model.dimension, model.restPositions, triangles, material, context.massMatrix, context.mass);
+  const Factors factors(context, triangles.size());
+  model.energies.push_back(mechanics::makeMembrane(model.dimension, model.restPositions, triangles, material, factors));
+  mechanics::addShellMass(
+      model.dimension, model.restPositions, triangles, material, context.massMatrix, context.mass, factors);
 }
 
 void addBending(const ElementContext& context) {
-  auto bending = mechanics::makeHingeBending(context.model.restPositions, trianglesOf(context), shellMaterial(context));
+  const mechanics::Triangles triangles = trianglesOf(context);
+  auto bending = mechanics::makeHingeBending(
+      context.model.restPositions, triangles, shellMaterial(context), Factors(context, triangles.size()));
   if (bending) context.model.energies.push_back(std::move(bending));
 }
 
@@ -38,11 +69,43 @@ void addShell(const ElementContext& context) {
   addBending(context);
 }
 
+/// The geometry's tetrahedra, or those all of whose nodes are in the entry's group.
+mechanics::Tetrahedra tetrahedraOf(const ElementContext& context) {
+  const PlacedGeometry& geometry = context.geometry;
+  mechanics::Tetrahedra tetrahedra = geometry.tetrahedra;
+  if (context.entry.contains("group")) {
+    const std::string name = context.entry["group"];
+    const auto group = geometry.mesh.groups.find(name);
+    if (group == geometry.mesh.groups.end())
+      throw InputError(
+          context.pointer + "/group", "The geometry " + quote(geometry.name) + " has no group " + quote(name) + ".");
+    const std::set<int> nodes(group->second.begin(), group->second.end());
+    std::erase_if(tetrahedra, [&](const auto& tetrahedron) {
+      return !std::all_of(tetrahedron.begin(), tetrahedron.end(), [&](int node) { return nodes.contains(node); });
+    });
+  }
+  if (tetrahedra.empty())
+    throw InputError(
+        context.pointer + "/geometry", "There are no tetrahedra here in the geometry " + quote(geometry.name) + ".");
+  return geometry.global(tetrahedra);
+}
+
+void addSolid(const ElementContext& context) {
+  mechanics::Model& model = context.model;
+  const mechanics::Tetrahedra tetrahedra = tetrahedraOf(context);
+  const Json& entry = *context.material;
+  const mechanics::SolidMaterial material{entry["young_modulus"], entry["poisson_ratio"], entry["density"]};
+  model.energies.push_back(
+      mechanics::makeSolid(model.restPositions, tetrahedra, material, Factors(context, tetrahedra.size()).stiffness));
+  mechanics::addSolidMass(model.restPositions, tetrahedra, material, context.massMatrix, context.mass);
+}
+
 }  // namespace
 
 const std::map<std::string, ElementBuilder>& elementBuilders() {
-  static const std::map<std::string, ElementBuilder> builders{
-      {"shell", addShell}, {"membrane", addMembrane}, {"bending", addBending}};
+  static const std::map<std::string, ElementBuilder> builders{{"shell", addShell},     {"membrane", addMembrane},
+                                                              {"bending", addBending}, {"solid", addSolid},
+                                                              {"link", addLink},       {"rigid_angle", addRigidAngle}};
   return builders;
 }
 

@@ -2,6 +2,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "core/harmonic/constraint_violation.hpp"
 #include "core/math/parallel.hpp"
 #include "core/scene/study.hpp"
 
@@ -108,6 +109,14 @@ void addMotion(const HarmonicResult& result, Json& json) {
   json["iterations"] = iterations;
 }
 
+void addConstraintViolation(const HarmonicResult& result, Json& json) {
+  double largest = -1;
+  for (const ResponsePoint& point : result.points)
+    if (const auto violations = harmonic::constraintViolations(*result.problem, point.z); violations.size() > 0)
+      largest = std::max(largest, violations.maxCoeff());
+  if (largest >= 0) json["largest_constraint_violation"] = largest;
+}
+
 }  // namespace
 
 Json HarmonicResult::summary() const {
@@ -121,6 +130,7 @@ Json HarmonicResult::summary() const {
     addCurve(*this, json);
   else
     addMotion(*this, json);
+  addConstraintViolation(*this, json);
   json["harmonics"] = problem->basis().harmonics();
   json["samples"] = problem->basis().samples();
   json["unknowns"] = problem->size();
@@ -140,6 +150,7 @@ Json HarmonicResult::summary() const {
                    {"path_length_derivative", "m per unit of the parameter"},
                    {"residual", "relative to the driving force"},
                    {"correction", "relative to the swing"},
+                   {"largest_constraint_violation", "relative to the length of the link or bar"},
                    {"seconds", "s"}};
   json["seconds"] = seconds;
   json["provenance"] = {{"version", provenance.version},      {"scene", provenance.sceneName},

@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/surface_mesh.hpp"
+#include "core/harmonic/constraint_violation.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
@@ -85,6 +86,22 @@ std::string trajectoryTable(const HarmonicResult& result) {
         for (int axis = 0; axis < model.dimension; ++axis) csv.add(path(sample, axis));
       csv.endRow();
     }
+    ++index;
+  }
+  return csv.text();
+}
+
+/// Empty where there are no rigid constraints.
+std::string constraintTable(const HarmonicResult& result) {
+  const int samples = result.problem->basis().samples();
+  CsvWriter csv;
+  csv.add("point").add("sample").add("omega t [rad]").add("constraint violation").endRow();
+  int index = 0;
+  for (const ResponsePoint& point : result.points) {
+    const mechanics::Vector violations = harmonic::constraintViolations(*result.problem, point.z);
+    if (violations.size() == 0) return {};
+    for (int sample = 0; sample < samples; ++sample)
+      csv.add(index).add(sample).add(2 * std::numbers::pi * sample / samples).add(violations[sample]).endRow();
     ++index;
   }
   return csv.text();
@@ -195,6 +212,8 @@ void HarmonicResult::write(const std::filesystem::path& directory) const {
   folder.writeFile("response.csv", responseTable(*this));
   folder.writeFile("coefficients.csv", coefficientTable(*this));
   folder.writeFile("trajectories.csv", trajectoryTable(*this));
+  if (const std::string violations = constraintTable(*this); !violations.empty())
+    folder.writeFile("constraint_violation.csv", violations);
   if (sensitivity && sensitivity->regular()) folder.writeFile("sensitivity.csv", sensitivityTable(*this));
   if (const geometry::SurfaceMesh mesh = surfaceAt(problem->model(), problem->model().restPositions);
       !mesh.triangles.empty())

@@ -9,6 +9,7 @@
 #include "core/scene/element_builders.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/mechanism_builders.hpp"
 #include "core/scene/placed_geometry.hpp"
 #include "core/scene/scene_parameters.hpp"
 
@@ -40,11 +41,17 @@ class Builder {
 
   mechanics::Model build() {
     addNodes();
+    forEach("drives", [&](const Json& entry, const std::string& pointer) {
+      if (entry["type"] == "servo")
+        addServo({scene_, geometries_, model_}, entry, pointer, toSignal(entry["harmonics"]));
+    });
     addElements();
     forEach("point_masses", [&](const Json& entry, const std::string& pointer) { addPointMass(entry, pointer); });
     forEach("springs", [&](const Json& entry, const std::string& pointer) { addSpring(entry, pointer); });
     forEach("boundary_conditions", [&](const Json& entry, const std::string& pointer) { lock(entry, pointer); });
-    forEach("drives", [&](const Json& entry, const std::string& pointer) { addDrive(entry, pointer); });
+    forEach("drives", [&](const Json& entry, const std::string& pointer) {
+      if (entry["type"] != "servo") addDrive(entry, pointer);
+    });
     forEach("loads", [&](const Json& entry, const std::string& pointer) { addLoad(entry, pointer); });
     forEach("probes", [&](const Json& entry, const std::string& pointer) {
       model_.probes.push_back({entry["name"], selectNode(entry["at"], pointer + "/at", geometries_)});
@@ -82,8 +89,13 @@ class Builder {
     for (const PlacedGeometry& geometry : geometries_) {
       model_.restPositions.segment(geometry.firstNode * dimension_, geometry.nodeCount() * dimension_) =
           geometry.mesh.points.topRows(dimension_).reshaped();
-      model_.parts.push_back(
-          {geometry.name, geometry.firstNode, geometry.nodeCount(), geometry.global(geometry.mesh.triangles), {}, {}});
+      model_.parts.push_back({geometry.name,
+                              geometry.firstNode,
+                              geometry.nodeCount(),
+                              geometry.global(geometry.mesh.triangles),
+                              {},
+                              {},
+                              {}});
     }
     model_.lockedCoordinates.assign(static_cast<std::size_t>(model_.restPositions.size()), 0);
   }
@@ -115,8 +127,10 @@ class Builder {
   }
 
   void addSpring(const Json& entry, const std::string& pointer) {
-    const mechanics::SpringLaw law{entry["coefficients"].get<std::vector<double>>()};
     const std::string type = entry["type"];
+    if (type == "local") return addLocalSpring({scene_, geometries_, model_}, entry, pointer);
+    if (type == "torsion") return addTorsionSpring({scene_, geometries_, model_}, entry, pointer);
+    const mechanics::SpringLaw law{entry["coefficients"].get<std::vector<double>>()};
     const auto restLength = [&](const Vector& a, const Vector& b) {
       return entry.contains("rest_length") ? entry["rest_length"].get<double>() : (a - b).norm();
     };

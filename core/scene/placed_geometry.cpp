@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/geometry/mesh_generators.hpp"
+#include "core/geometry/tet_mesh.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 
@@ -48,6 +49,14 @@ std::vector<std::array<int, corners>> nodeTuples(const Json& lists, const std::s
   return tuples;
 }
 
+/// Checks the tetrahedra, turns them the right way round, and makes their boundary the triangles if there are none.
+void finishTetrahedra(PlacedGeometry& geometry) {
+  geometry::TetMesh mesh{geometry.mesh.points, geometry.tetrahedra, {}};
+  geometry::checkTetMesh(mesh);
+  geometry.tetrahedra = geometry::orientTetrahedra(mesh);
+  if (geometry.mesh.triangles.empty()) geometry.mesh.triangles = geometry::boundaryTriangles(geometry.tetrahedra);
+}
+
 void addInlineMesh(const Json& entry, const std::string& pointer, PlacedGeometry& geometry) {
   geometry.mesh.points = toPoints(entry["points"]);
   const int nodes = geometry.nodeCount();
@@ -66,6 +75,18 @@ void addInlineMesh(const Json& entry, const std::string& pointer, PlacedGeometry
     geometry.mesh.groups[group["name"]] = group["nodes"].get<std::vector<int>>();
   }
   if (!geometry.mesh.triangles.empty()) geometry::checkMesh(geometry.mesh);
+  if (!geometry.tetrahedra.empty()) finishTetrahedra(geometry);
+}
+
+void addBlocks(const Json& entry, PlacedGeometry& geometry) {
+  std::vector<geometry::Block> blocks;
+  for (const Json& block : entry["blocks"])
+    blocks.push_back({block["name"], toPoint(block["minimum"]), toPoint(block["maximum"])});
+  geometry::TetMesh mesh = geometry::makeBlocks(blocks, toPoint(entry["cell"]));
+  geometry.mesh.points = std::move(mesh.points);
+  geometry.mesh.groups = std::move(mesh.groups);
+  geometry.mesh.triangles = geometry::boundaryTriangles(mesh.tetrahedra);
+  geometry.tetrahedra = std::move(mesh.tetrahedra);
 }
 
 geometry::SurfaceMesh fileMesh(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
@@ -145,6 +166,8 @@ std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
     locate(pointer, [&] {
       if (entries[i]["type"] == "mesh")
         addInlineMesh(entries[i], pointer, geometry);
+      else if (entries[i]["type"] == "blocks")
+        addBlocks(entries[i], geometry);
       else
         geometry.mesh = makeSurface(entries[i], pointer, scene.directory());
     });

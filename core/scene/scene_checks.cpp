@@ -53,14 +53,21 @@ void checkDimension(const Json& scene) {
   const int dimension = scene["dimension"];
   const std::string because = " because the scene's dimension is " + std::to_string(dimension) + ".";
   for (std::size_t i = 0; i < scene["geometry"].size(); ++i)
-    if (dimension == 1 && scene["geometry"][i]["type"] != "points")
+    if (const Json& type = scene["geometry"][i]["type"]; dimension == 1 && type != "points")
       throw InputError(at("geometry", i) + "/type", "Only \"points\" is possible" + because);
+    else if (dimension == 2 && type == "blocks")
+      throw InputError(at("geometry", i) + "/type", "Blocks are not possible" + because);
   for (std::size_t i = 0; i < scene["elements"].size(); ++i)
-    if (dimension < 3 && scene["elements"][i]["type"] != "membrane")
-      throw InputError(at("elements", i) + "/type", "Only \"membrane\" is possible" + because);
+    if (const Json& type = scene["elements"][i]["type"];
+        dimension < 3 && type != "membrane" && type != "link" && type != "rigid_angle")
+      throw InputError(
+          at("elements", i) + "/type", "Only \"membrane\", \"link\" and \"rigid_angle\" are possible" + because);
+  for (std::size_t i = 0; i < scene["springs"].size(); ++i)
+    if (dimension != 2 && scene["springs"][i]["type"] == "torsion")
+      throw InputError(at("springs", i) + "/type", "A torsion spring is not possible" + because);
   for (std::size_t i = 0; i < scene["drives"].size(); ++i)
-    if (dimension == 1 && scene["drives"][i]["type"] == "rotation")
-      throw InputError(at("drives", i) + "/type", "A rotation is not possible" + because);
+    if (dimension == 1 && scene["drives"][i]["type"] != "translation")
+      throw InputError(at("drives", i) + "/type", "Only a translation is possible" + because);
   for (std::size_t i = 0; i < scene["boundary_conditions"].size(); ++i) {
     const Json& entry = scene["boundary_conditions"][i];
     if (!entry.contains("coordinates")) continue;

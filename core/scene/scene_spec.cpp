@@ -77,6 +77,16 @@ ParameterSpec geometries() {
                                                        largestMesh)}),
                                   0, 1000),
                              Json::array())}),
+       geometry(
+           "blocks",
+           "Boxes of tetrahedra, cut into cells; where they meet or overlap their nodes are one. Groups: the name "
+           "of each block and its sides, such as \"foot.y_min\", \"foot.z_max\".",
+           {vector("cell", "Size of a cell along x, y and z; boxes are whole numbers of them.", dimensions::length),
+            list("blocks", "The boxes.",
+                 object("block", "A box.",
+                        {name(), vector("minimum", "Its lower corner.", dimensions::length),
+                         vector("maximum", "Its upper corner.", dimensions::length)}),
+                 1, 1000)}),
        geometry("file", "Triangles read from an STL, OBJ or PLY file.", [] {
          ParameterSpec path = text("path", "The file, relative to the scene.");
          path.kind = base::ValueKind::path;
@@ -96,19 +106,53 @@ ParameterSpec materials() {
                           within(number("poisson_ratio", "ν", "Poisson's ratio.", dimensions::none), -0.99, 0.5)})});
 }
 
+ParameterSpec factors(std::string key, std::string description) {
+  return withDefault(list(std::move(key), std::move(description),
+                          positive(number("", "", "A factor.", dimensions::none)), 0, 6 * largestMesh),
+                     Json::array());
+}
+
+ParameterSpec joints(int most) {
+  return list("joints", "Indices of the nodes, counted from 0 in the geometry.", nodeIndex(), most == 3 ? 3 : 2, most);
+}
+
+ParameterSpec linkStiffness() {
+  return withDefault(positive(number("stiffness", "K", "Force per relative change of length of the stiff penalty.",
+                                     dimensions::force)),
+                     1e7);
+}
+
 ParameterSpec elements() {
-  const auto element = [](std::string type, std::string description) {
+  const auto geometry = optional(reference("geometry", "Whose; may be left out where there is one.", "geometry"));
+  const auto material = optional(reference("material", "May be left out where there is one.", "materials"));
+  const auto stiffnessFactors =
+      factors("stiffness_factors", "Multiply Young's modulus, one an element; all 1 if empty.");
+  const auto sheet = [&](std::string type, std::string description) {
     return object(
         std::move(type), std::move(description),
-        {name(), optional(reference("geometry", "Whose triangles; may be left out where there is one.", "geometry")),
-         optional(reference("material", "May be left out where there is one.", "materials")),
-         positive(number("thickness", "h", "Thickness.", dimensions::length))});
+        {name(), geometry, material, positive(number("thickness", "h", "Thickness.", dimensions::length)),
+         stiffnessFactors, factors("thickness_factors", "Multiply the thickness, one a triangle; all 1 if empty.")});
   };
   return variant(
-      "element", "Turns the triangles of a geometry into an elastic body with mass.",
-      {element("shell", "A membrane that also resists bending (discrete shells), in 3 dimensions."),
-       element("membrane", "Resists stretch and shear alone (constant-strain triangles), in 2 or 3 dimensions."),
-       element("bending", "Resists bending alone and has no mass, in 3 dimensions.")});
+      "element", "Turns the triangles or tetrahedra of a geometry into an elastic body with mass, or joins its nodes.",
+      {sheet("shell", "Triangles: a membrane that also resists bending (discrete shells), in 3 dimensions."),
+       sheet("membrane",
+             "Triangles that resist stretch and shear alone (constant strain, plane stress), in 2 or 3 dimensions."),
+       sheet("bending", "Triangles that resist bending alone and have no mass, in 3 dimensions."),
+       object("solid", "Tetrahedra of constant strain, in 3 dimensions.",
+              {name(), geometry, material,
+               optional(text("group", "Only the tetrahedra all of whose nodes are in this group of the geometry.")),
+               stiffnessFactors}),
+       object("link",
+              "A rigid bar through two or more joints. Its local coordinates start in the first joint, along the "
+              "line to the second.",
+              {name(), geometry, joints(1000),
+               withDefault(notNegative(number(
+                               "mass", "m", "Mass, uniform along the line through the joints.", dimensions::mass)),
+                           0),
+               linkStiffness()}),
+       object("rigid_angle", "Keeps the angle at the second of three joints, as if they were one bar.",
+              {name(), geometry, joints(3), linkStiffness()})});
 }
 
 ParameterSpec coefficients() {
@@ -121,6 +165,20 @@ ParameterSpec coefficients() {
   return spec;
 }
 
+ParameterSpec torsionStiffness() { return notNegative(number("stiffness", "k", "Moment per angle.", {1, 2, -2, -1})); }
+
+ParameterSpec springEnd(std::string key, std::string description) {
+  return variant(
+      std::move(key), std::move(description),
+      {object(
+           "link", "A point of a link.",
+           {reference("link", "A link among the elements.", "elements"),
+            number("along", "", "From its first joint towards its second.", dimensions::length),
+            withDefault(number("across", "", "To the left of that line; 0 in 3 dimensions.", dimensions::length), 0)}),
+       object("node", "A node.", {selection("at", "One node.")}),
+       object("place", "A fixed place.", {vector("position", "Where.", dimensions::length)})});
+}
+
 ParameterSpec springs() {
   const auto restLength = optional(notNegative(number(
       "rest_length", "l", "Length without force; the distance in the rest shape if left out.", dimensions::length)));
@@ -131,6 +189,12 @@ ParameterSpec springs() {
        object("anchored", "Between a node and a fixed place; elongation = distance - rest_length.",
               {name(), selection("at", "One node."), vector("anchor", "The fixed place.", dimensions::length),
                restLength, coefficients()}),
+       object("local", "Between two points that move with links; elongation = distance - rest_length.",
+              {name(), springEnd("from", "One end."), springEnd("to", "The other end."), restLength, coefficients()}),
+       object("torsion",
+              "A moment about a joint, proportional to the change of the angle between two links, in 2 dimensions.",
+              {name(), selection("joint", "One node."), selection("from", "Another node of one link."),
+               selection("to", "Another node of the other link."), torsionStiffness()}),
        object("grounded", "Pulls a node back along a direction; elongation = displacement along it.",
               {name(), selection("at", "Nodes; each gets its own spring."),
                vector("direction", "Only the direction counts.", dimensions::none), coefficients()})});
@@ -165,7 +229,16 @@ ParameterSpec drives() {
                withDefault(list("axis", "Direction of the axis; in 2 dimensions it is z.",
                                 number("", "", "A component.", dimensions::none), 3, 3),
                            {0, 0, 1}),
-               signal("Angle over time.", dimensions::angle)})});
+               signal("Angle over time.", dimensions::angle)}),
+       object(
+           "servo",
+           "Turns a link against another one that may itself move, by a stiff torsion spring whose rest angle is "
+           "prescribed.",
+           {name(), selection("joint", "One node, at the joint."),
+            selection("from", "Another node of the link that carries the servo."),
+            selection("to", "Another node of the link that it turns."),
+            optional(selection("axis_end", "In 3 dimensions: a second node on the axis, which both links share.")),
+            withDefault(torsionStiffness(), 1e4), signal("Angle over time, counter-clockwise.", dimensions::angle)})});
 }
 
 ParameterSpec loads() {

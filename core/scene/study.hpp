@@ -79,7 +79,8 @@ class HarmonicResult final : public Result {
   std::string kind() const override { return "harmonic"; }
   Json summary() const override;
   /// summary.json, response.csv (a row a point), coefficients.csv (every point's Fourier coefficients, exactly),
-  /// trajectories.csv (of the probes), mesh.ply (the rest shape, if there are triangles), sensitivity.csv.
+  /// trajectories.csv (of the probes), mesh.ply (the rest shape, if there are triangles), sensitivity.csv,
+  /// constraint_violation.csv (over a period, if there are rigid links).
   void write(const std::filesystem::path& directory) const override;
   /// What `write` wrote for a scene with the same nodes. The model gets the values of the design parameters with which
   /// the result was computed. Throws base::InputError.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/geometry/surface_mesh.hpp"
+#include "core/mechanics/mechanism.hpp"
 #include "ui/render/color_map.hpp"
 
 namespace pliant::render {
@@ -60,6 +61,12 @@ FigureLayout::FigureLayout(const mechanics::Model& model)
     springs.push_back({tethers[i].node, fixedEnd});
     fixedPoints.push_back(fixedEnd);
   }
+  for (const mechanics::DisplayPart& part : model.parts)
+    for (const auto& ends : part.attachedSprings) {
+      const int first = nodes + static_cast<int>(tethers.size() + attachments.size());
+      attachments.insert(attachments.end(), ends.begin(), ends.end());
+      springs.push_back({first, first + 1});
+    }
   const Points atRest = pose(model.restPositions);
   restExtent_ = extentOf(atRest);
   setReach(atRest);
@@ -80,8 +87,12 @@ void FigureLayout::setReach(const Points& reach) {
 }
 
 Points FigureLayout::pose(const Eigen::VectorXd& positions) const {
-  Points result(3, rest.cols() + anchors.cols());
-  result << toPoints(positions, static_cast<int>(rest.cols()), dimension), anchors;
+  const Eigen::Index attached = rest.cols() + anchors.cols();
+  Points result(3, attached + static_cast<Eigen::Index>(attachments.size()));
+  result.leftCols(attached) << toPoints(positions, static_cast<int>(rest.cols()), dimension), anchors;
+  for (std::size_t i = 0; i < attachments.size(); ++i)
+    result.col(attached + static_cast<Eigen::Index>(i)) =
+        toPoints(mechanics::positionOf(attachments[i], dimension, positions), 1, dimension);
   return result;
 }
 

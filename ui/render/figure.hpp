@@ -16,7 +16,7 @@ struct FigureLayout {
 
   /// Measures markers of a model without extent (a single mass, say) by what its motion reaches.
   void setReach(const Points& reach);
-  /// Positions of the nodes, and after them the fixed ends of grounded springs.
+  /// Positions of the nodes, after them the fixed ends of grounded springs, and the ends of springs on links.
   Points pose(const Eigen::VectorXd& positions) const;
   /// Radii of `massNodes` for the point masses of `model` [m].
   std::vector<double> massRadii(const mechanics::Model& model) const;
@@ -25,9 +25,10 @@ struct FigureLayout {
   Points rest;      ///< of the nodes
   double size = 1;  ///< extent of the model [m]; markers are measured by it
   std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> outline;  ///< edges of one triangle
-  std::vector<std::array<int, 2>> springs;  ///< columns of pose()
-  Points anchors{3, 0};                     ///< fixed ends of springs
+  std::vector<std::array<int, 2>> outline;              ///< edges of one triangle
+  std::vector<std::array<int, 2>> springs;              ///< columns of pose()
+  Points anchors{3, 0};                                 ///< fixed ends of springs
+  std::vector<mechanics::AttachmentPoint> attachments;  ///< ends of springs that move with links
   std::vector<int> massNodes;
   std::vector<int> drivenNodes;
   std::vector<int> fixedPoints;  ///< columns of pose(): locked nodes and fixed ends of springs
