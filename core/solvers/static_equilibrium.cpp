@@ -20,6 +20,11 @@ constexpr double negligibleStiffness = 1e-14;
 constexpr double smallestShift = 1e-12;
 constexpr double largestShift = 1e3;
 
+/// Steps back to what stiff links and sheets allow after a step beside it, and the shift of the diagonal that leaves
+/// only their stiffness in charge, relative to the stiffness's largest entry.
+constexpr int mostRelaxations = 6;
+constexpr double relaxationShift = 1e-3;
+
 double largestEntry(const SparseMatrix& matrix) {
   double largest = 0;
   for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i) largest = std::max(largest, std::abs(matrix.valuePtr()[i]));
@@ -100,6 +105,22 @@ StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssemb
   math::SparseFactorization factorization;
   result.report.iterations.push_back({0, residual.norm() / scale, 0});
 
+  // A step along the tangent of stiff links or an inextensible sheet ends beside what they allow, by the square of its
+  // length: it seems to raise the energy however far it leads down the valley, and the stress of the stretch spoils the
+  // next Hessian. Steps with a shift that only stiff directions overcome lead back.
+  const auto relaxStiffDirections = [&](Vector& position, Vector& left) {
+    for (int i = 0; i < mostRelaxations; ++i) {
+      const SparseMatrix matrix = assembler.hessian(position);
+      if (!factorization.factorize(shifted(matrix, relaxationShift * largestEntry(matrix)))) return;
+      Vector relaxed = position;
+      relaxed(free) -= factorization.solve(left).col(0);
+      const Vector next = unbalanced(relaxed);
+      if (!(next.norm() < 0.5 * left.norm())) return;
+      position = relaxed;
+      left = next;
+    }
+  };
+
   const auto iterate = [&](int iteration) -> std::optional<TerminationType> {
     if (!std::isfinite(energy)) return TerminationType::failed;
     if (residual.norm() <= options.tolerance * scale) return TerminationType::converged;
@@ -116,11 +137,12 @@ StaticEquilibrium solveStaticEquilibrium(const Model& model, const ElasticAssemb
     if (factorization.factorize(shift > 0 ? shifted(stiffness, shift * largest) : stiffness))
       step = -factorization.solve(residual).col(0);
     if (step.size() > 0 && step.dot(residual) < 0) {
+      const bool tiny = step.norm() <= options.stepTolerance * size;
       Vector trial = x;
       trial(free) += step;
-      const Vector trialResidual = unbalanced(trial);
+      Vector trialResidual = unbalanced(trial);
+      if (!tiny && trialResidual.norm() > residual.norm()) relaxStiffDirections(trial, trialResidual);
       const double trialEnergy = potential(trial);
-      const bool tiny = step.norm() <= options.stepTolerance * size;
       // Near the end the energy's decrease drowns in rounding, and the force's does not.
       if (trialEnergy < energy || (shift == 0 && trialResidual.norm() < residual.norm())) {
         x = trial;
