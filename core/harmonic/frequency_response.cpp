@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/harmonic/jacobian_solver.hpp"
+#include "core/harmonic/stability_tracker.hpp"
 #include "core/solvers/continuation_solver.hpp"
 
 namespace pliant::harmonic {
@@ -32,6 +33,8 @@ class ResponseBranch final : public solvers::ContinuationProblem {
   Vector multiply(const Vector& v) override { return solver_.multiply(v); }
   bool factorize() override { return solver_.factorize(); }
   Vector solve(const Vector& b) override { return solver_.solve(b); }
+  /// With the factors of ∂h/∂z there.
+  Stability stability(double omega) const { return floquetStability(problem_, solver_, omega); }
 
   /// dA/ds of every probe, or of the norm of the oscillation if there is none.
   Vector monitors(const solvers::BranchPoint& point) override {
@@ -75,6 +78,27 @@ solvers::ContinuationOptions continuationOptions(const HarmonicBalanceProblem& p
   return continuation;
 }
 
+PointKind kindOf(solvers::BranchEvent event) {
+  if (event == solvers::BranchEvent::fold) return PointKind::fold;
+  return event == solvers::BranchEvent::monitor ? PointKind::peak : PointKind::regular;
+}
+
+ResponsePoint responsePoint(const HarmonicBalanceProblem& problem, TrackedPoint&& tracked) {
+  ResponsePoint point;
+  point.kind = tracked.kind;
+  point.probe = tracked.probe;
+  point.omega = tracked.at.parameter;
+  point.arcLength = tracked.at.arcLength;
+  point.z = std::move(tracked.at.x);
+  for (const mechanics::Probe& probe : problem.model().probes)
+    point.amplitudes.push_back(amplitude(problem, point.z, probe.node));
+  point.residual = tracked.at.residual;
+  point.correction = tracked.at.correction;
+  point.newtonIterations = tracked.at.iterations;
+  point.stability = std::move(tracked.stability);
+  return point;
+}
+
 }  // namespace
 
 FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
@@ -90,28 +114,33 @@ FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const 
   }
   ResponseBranch branch(problem);
   solvers::ContinuationSolver solver(branch, continuationOptions(problem, options, start.z));
-  const auto receive = [&](const solvers::BranchPoint& at, solvers::BranchEvent event, int monitor) {
-    ResponsePoint point;
-    point.kind = event == solvers::BranchEvent::fold      ? PointKind::fold
-                 : event == solvers::BranchEvent::monitor ? PointKind::peak
-                                                          : PointKind::regular;
-    point.probe = problem.model().probes.empty() ? -1 : monitor;
-    point.omega = at.parameter;
-    point.arcLength = at.arcLength;
-    point.z = at.x;
-    for (const mechanics::Probe& probe : problem.model().probes)
-      point.amplitudes.push_back(amplitude(problem, point.z, probe.node));
-    point.residual = at.residual;
-    point.correction = at.correction;
-    point.newtonIterations = at.iterations;
-    response.points.push_back(std::move(point));
+  std::vector<base::IterationRecord> records;
+  const auto emit = [&](TrackedPoint&& tracked) {
+    const double before = response.points.empty() ? 0.0 : response.points.back().arcLength;
+    response.points.push_back(responsePoint(problem, std::move(tracked)));
+    const ResponsePoint& point = response.points.back();
+    records.push_back({static_cast<int>(records.size()), point.residual, point.arcLength - before, point.correction});
     char message[80];
-    std::snprintf(message, sizeof message, "ω = %.4g rad/s, arc length %.3g, %zu points", at.parameter, at.arcLength,
+    std::snprintf(message, sizeof message, "ω = %.4g rad/s, arc length %.3g, %zu points", point.omega, point.arcLength,
                   response.points.size());
-    context.reportProgress(std::abs(at.parameter - options.from) / std::abs(options.to - options.from), message);
-    if (onPoint) onPoint(response.points.back());
+    context.reportProgress(std::abs(point.omega - options.from) / std::abs(options.to - options.from), message);
+    if (onPoint) onPoint(point);
   };
-  response.report = solver.trace(start.z, options.from, context, receive);
+  const auto stability = [&](const solvers::BranchPoint& at) {
+    return options.stability && !context.cancelRequested() && solver.factorizeAt(at) ? branch.stability(at.parameter)
+                                                                                     : Stability{};
+  };
+  const auto between = [&](const solvers::BranchPoint& from, const solvers::BranchPoint& to, double arcLength) {
+    return solver.solveBetween(from, to, arcLength);
+  };
+  StabilityTracker tracker({stability, between, emit}, options.locationTolerance);
+  const bool probes = !problem.model().probes.empty();
+  response.report = solver.trace(
+      start.z, options.from, context, [&](const solvers::BranchPoint& at, solvers::BranchEvent event, int monitor) {
+        tracker.add(at, kindOf(event), probes ? monitor : -1);
+      });
+  tracker.finish();
+  response.report.iterations = std::move(records);
   response.report.seconds += start.report.seconds;
   return response;
 }

@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/harmonic/amplitude.hpp"
 #include "core/harmonic/periodic_motion.hpp"
+#include "core/harmonic/response_point.hpp"
 
 namespace pliant::harmonic {
 
@@ -15,36 +15,23 @@ struct FrequencyResponseOptions {
   double minimumStep = 0;  ///< 0: initialStep / 4096
   double maximumStep = 0;  ///< 0: limited by curvature and by a fortieth of the range in frequency alone
   int maximumPoints = 2000;
-  double locationTolerance = 1e-6;  ///< relative error of the frequency of folds and peaks
+  double locationTolerance = 1e-6;  ///< relative error of the frequency of folds, peaks and bifurcations
+  bool stability = true;            ///< find the stability of every point, and the bifurcations
   PeriodicMotionOptions newton;
 };
 
-enum class PointKind { regular, fold, peak };
-
-/// One solution on the curve.
-struct ResponsePoint {
-  PointKind kind = PointKind::regular;
-  int probe = -1;        ///< peak: of which probe; -1 for a model without probes
-  double omega = 0;      ///< [rad/s]
-  double arcLength = 0;  ///< along the curve, in the scaled measure (Δz / swing at the start, Δω / range)
-  Vector z;              ///< coefficients
-  std::vector<Amplitude> amplitudes;  ///< a probe each
-  double residual = 0;                ///< ‖h‖ / forceScale
-  double correction = 0;  ///< the last one of z, relative to the swing (of the curve's start): how far z may be off
-  int newtonIterations = 0;
-};
-
 struct FrequencyResponse {
-  std::vector<ResponsePoint> points;  ///< in the order of the curve, located folds and peaks among them
+  std::vector<ResponsePoint> points;  ///< in the order of the curve, those located among them
   base::SolverReport report;          ///< one record a point
 };
 
 /// Pseudo-arclength continuation (2.3.18, 2.3.19) with step control, through folds, until the curve leaves the range;
 /// the last point lies exactly on the range's end. Folds (dω/ds = 0) and resonance peaks of every probe's path length
 /// (dA/ds changes from positive to negative) are located and stand among the points. A model without probes has the
-/// peaks of the root mean square swing of its free coordinates, ‖z without constants‖. `onPoint` is called with each
-/// point as it is found (from the calling thread). If cancelled or stuck, the points so far are returned with the
-/// reason. Throws base::InputError if a frequency is not finite and positive or the range is empty.
+/// peaks of the root mean square swing of its free coordinates, ‖z without constants‖. With `stability`, so are the
+/// bifurcations (see StabilityTracker), and the located ones count as stable if one side of them is. `onPoint` is
+/// called with each point as it is found (from the calling thread). If cancelled or stuck, the points so far are
+/// returned with the reason. Throws base::InputError if a frequency is not finite and positive or the range is empty.
 FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
                                          base::ExecutionContext& context,
                                          const std::function<void(const ResponsePoint&)>& onPoint = {});

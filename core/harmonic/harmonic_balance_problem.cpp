@@ -70,6 +70,7 @@ struct HarmonicBalanceProblem::Structure {
   math::HarmonicBasis basis;
   mechanics::ElasticAssembler assembler;
   SparseMatrix massToFree;  ///< coordinates x nFree
+  SparseMatrix freeMass;
   HarmonicJacobian jacobian;
   Matrix synthesis;  ///< Γ, its first row repeated up to whole packets
 
@@ -86,7 +87,8 @@ struct HarmonicBalanceProblem::Structure {
         basis(basis_),
         assembler(model),
         massToFree(freeColumns(*model, model->massMatrix())),
-        jacobian(basis, assembler, freeRows(*model, massToFree)) {
+        freeMass(freeRows(*model, massToFree)),
+        jacobian(basis, assembler, freeMass) {
     const int padded = mechanics::ElasticAssembler::paddedRows(basis.samples());
     synthesis.resize(padded, basis.size());
     for (int i = 0; i < padded; ++i) synthesis.row(i) = basis.synthesis().row(i < basis.samples() ? i : 0);
@@ -170,6 +172,7 @@ std::shared_ptr<const Model> HarmonicBalanceProblem::sharedModel() const { retur
 const math::HarmonicBasis& HarmonicBalanceProblem::basis() const { return structure_->basis; }
 const mechanics::ElasticAssembler& HarmonicBalanceProblem::assembler() const { return structure_->assembler; }
 Eigen::Index HarmonicBalanceProblem::size() const { return structure_->jacobian.size(); }
+const SparseMatrix& HarmonicBalanceProblem::freeMass() const { return structure_->freeMass; }
 SolutionCost& HarmonicBalanceProblem::cost() const { return workspace_->cost; }
 
 Vector HarmonicBalanceProblem::restCoefficients() const { return constantCoefficients(model().restPositions); }

@@ -63,6 +63,9 @@ class HarmonicBalanceProblem {
   /// Number of unknowns, (2H+1) nFree.
   Eigen::Index size() const;
 
+  /// M of the free coordinates, nFree square [kg].
+  const SparseMatrix& freeMass() const;
+
   /// The rest position as coefficients.
   Vector restCoefficients() const;
   /// The force scale [N] that residual norms are divided by: √(‖f̂‖² + (ω² a ‖m‖)²) with f̂ the coefficients of the loads

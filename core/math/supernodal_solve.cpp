@@ -9,6 +9,8 @@ namespace pliant::math {
 namespace {
 
 constexpr int chunkColumns = 16;  ///< right-hand sides solved together
+/// Entries of the factors, times right-hand sides, below which threads cost more than they save.
+constexpr double parallelEntries = 2e6;
 
 using Run = SupernodeTree::Run;
 
@@ -24,9 +26,16 @@ void SupernodalFactorization::solve(bool transposed, const Eigen::MatrixXd& b, E
     for (const Run& run : tree_.pivotRuns) {
       y.middleRows(run.target, run.length) = b.block(run.source, first, run.length, columns);
     }
-    traversal_->childrenFirst(
-        [](int) {}, [&](int node) { solveForward(tree_.supernodes[node], transposed, columns, y.data()); });
-    traversal_->parentsFirst([&](int node) { solveBackward(tree_.supernodes[node], transposed, columns, y.data()); });
+    const auto forward = [&](int node) { solveForward(tree_.supernodes[node], transposed, columns, y.data()); };
+    const auto backward = [&](int node) { solveBackward(tree_.supernodes[node], transposed, columns, y.data()); };
+    if (static_cast<double>(tree_.factorSize) * columns < parallelEntries) {
+      const int count = static_cast<int>(tree_.supernodes.size());
+      for (int node = 0; node < count; ++node) forward(node);
+      for (int node = count - 1; node >= 0; --node) backward(node);
+    } else {
+      traversal_->childrenFirst([](int) {}, forward);
+      traversal_->parentsFirst(backward);
+    }
     for (const Run& run : tree_.pivotRuns) {
       x.block(run.source, first, run.length, columns) = y.middleRows(run.target, run.length);
     }

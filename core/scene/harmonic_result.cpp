@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <complex>
 #include <ctime>
 #include <numbers>
 
 #include "core/harmonic/constraint_violation.hpp"
 #include "core/math/parallel.hpp"
+#include "core/scene/harmonic_names.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
@@ -52,26 +54,56 @@ void addSensitivities(const HarmonicResult& result, Json& probes) {
   }
 }
 
+void addStability(const harmonic::Stability& stability, Json& json) {
+  json["stability"] = nameOf(stability.state);
+  if (stability.state == harmonic::StabilityState::unknown) return;
+  json["unstable_multipliers"] = stability.unstableCount;
+  Json multipliers = Json::array();
+  for (const std::complex<double> multiplier : stability.multipliers)
+    multipliers.push_back({multiplier.real(), multiplier.imag()});
+  json["multipliers"] = multipliers;
+}
+
+Json peakEntry(const HarmonicResult& result, const ResponsePoint& point) {
+  Json entry;
+  addFrequency(entry, point.omega);
+  if (point.probe < 0) return entry;
+  entry["probe"] = result.problem->model().probes[static_cast<std::size_t>(point.probe)].name;
+  const auto& amplitude = point.amplitudes[static_cast<std::size_t>(point.probe)];
+  entry["path_length"] = amplitude.pathLength;
+  entry["maximum_displacement"] = amplitude.maximumDisplacement;
+  return entry;
+}
+
+Json bifurcationEntry(const HarmonicResult& result, const ResponsePoint& point) {
+  Json entry{{"kind", nameOf(point.kind)}};
+  addFrequency(entry, point.omega);
+  entry["probes"] = probesAt(result, point);
+  if (const auto critical = harmonic::criticalMultiplier(point); critical != 0.0)
+    entry["multiplier"] = {critical.real(), critical.imag()};
+  return entry;
+}
+
 void addCurve(const HarmonicResult& result, Json& json) {
-  Json folds = Json::array(), peaks = Json::array();
+  Json folds = Json::array(), peaks = Json::array(), bifurcations = Json::array();
   long newtonIterations = 0;
   double residual = 0, correction = 0;
+  std::size_t unstable = 0, unknown = 0;
   for (const ResponsePoint& point : result.points) {
     newtonIterations += point.newtonIterations;
     residual = std::max(residual, point.residual);
     correction = std::max(correction, point.correction);
+    unstable += point.stability.state == harmonic::StabilityState::unstable;
+    unknown += point.stability.state == harmonic::StabilityState::unknown;
     if (point.kind == PointKind::regular) continue;
-    Json entry;
-    addFrequency(entry, point.omega);
     if (point.kind == PointKind::peak) {
-      if (point.probe >= 0) {
-        entry["probe"] = result.problem->model().probes[static_cast<std::size_t>(point.probe)].name;
-        const auto& amplitude = point.amplitudes[static_cast<std::size_t>(point.probe)];
-        entry["path_length"] = amplitude.pathLength;
-        entry["maximum_displacement"] = amplitude.maximumDisplacement;
-      }
-      peaks.push_back(entry);
-    } else {
+      peaks.push_back(peakEntry(result, point));
+      continue;
+    }
+    bifurcations.push_back(bifurcationEntry(result, point));
+    if (point.kind == PointKind::fold) {
+      Json entry;
+      addFrequency(entry, point.omega);
       entry["probes"] = probesAt(result, point);
       folds.push_back(entry);
     }
@@ -85,6 +117,10 @@ void addCurve(const HarmonicResult& result, Json& json) {
   json["peaks"] = peaks;
   json["fold_count"] = folds.size();
   json["folds"] = folds;
+  json["bifurcation_count"] = bifurcations.size();
+  json["bifurcations"] = bifurcations;
+  json["unstable_points"] = unstable;
+  json["points_of_unknown_stability"] = unknown;
   json["residual"] = residual;
   json["correction"] = correction;
   json["newton_iterations"] = newtonIterations;
@@ -96,6 +132,7 @@ void addMotion(const HarmonicResult& result, Json& json) {
     Json probes = probesAt(result, result.points.front());
     if (result.sensitivity && result.sensitivity->regular()) addSensitivities(result, probes);
     json["probes"] = probes;
+    addStability(result.points.front().stability, json);
   }
   json["residual"] = result.report.residual();
   json["correction"] = result.report.correction();

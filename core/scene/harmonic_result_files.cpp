@@ -4,6 +4,7 @@
 #include "core/geometry/surface_mesh.hpp"
 #include "core/harmonic/constraint_violation.hpp"
 #include "core/scene/csv.hpp"
+#include "core/scene/harmonic_names.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
@@ -13,32 +14,31 @@
 namespace pliant::scene {
 
 using base::InputError;
-using harmonic::PointKind;
 using harmonic::ResponsePoint;
 using mechanics::Model;
 
 namespace {
 
 constexpr std::string_view axisNames = "xyz";
-constexpr std::size_t columnsBeforeProbes = 7;  ///< of response.csv
+constexpr std::size_t columnsBeforeProbes = 11;  ///< of response.csv
 constexpr std::size_t columnsBeforeCoefficients = 3;
-
-std::string_view kindName(PointKind kind) {
-  return kind == PointKind::fold ? "fold" : kind == PointKind::peak ? "peak" : "regular";
-}
 
 std::string responseTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
   CsvWriter csv;
   csv.add("point").add("kind").add("peak of").add("omega [rad/s]").add("arc length").add("residual").add("correction");
+  csv.add("stability").add("unstable multipliers").add("critical multiplier").add("critical multiplier, imaginary");
   for (const auto& probe : model.probes)
     csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
   csv.add("newton iterations").endRow();
   int index = 0;
   for (const ResponsePoint& point : result.points) {
-    csv.add(index++).add(kindName(point.kind));
+    csv.add(index++).add(nameOf(point.kind));
     csv.add(point.probe < 0 ? std::string_view() : model.probes[static_cast<std::size_t>(point.probe)].name);
     csv.add(point.omega).add(point.arcLength).add(point.residual).add(point.correction);
+    csv.add(nameOf(point.stability.state)).add(point.stability.unstableCount);
+    const std::complex<double> critical = harmonic::criticalMultiplier(point);
+    csv.add(critical.real()).add(critical.imag());
     for (const auto& amplitude : point.amplitudes) csv.add(amplitude.pathLength).add(amplitude.maximumDisplacement);
     csv.add(point.newtonIterations).endRow();
   }
@@ -156,13 +156,17 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     const auto& row = rows[i];
     if (row.size() != columnsBeforeProbes + 2 * probeCount + 1) otherScene();
     ResponsePoint point;
-    point.kind = row[1] == "fold" ? PointKind::fold : row[1] == "peak" ? PointKind::peak : PointKind::regular;
+    point.kind = pointKindOf(row[1]);
     for (std::size_t p = 0; p < probeCount; ++p)
       if (row[2] == model.probes[p].name) point.probe = static_cast<int>(p);
     point.omega = csvNumber(row[3]);
     point.arcLength = csvNumber(row[4]);
     point.residual = csvNumber(row[5]);
     point.correction = csvNumber(row[6]);
+    point.stability.state = stabilityStateOf(row[7]);
+    point.stability.unstableCount = csvInteger(row[8]);
+    if (const std::complex critical(csvNumber(row[9]), csvNumber(row[10])); critical != 0.0)
+      point.stability.multipliers.push_back(critical);
     for (std::size_t p = 0; p < probeCount; ++p)
       point.amplitudes.push_back(
           {csvNumber(row[columnsBeforeProbes + 2 * p]), csvNumber(row[columnsBeforeProbes + 2 * p + 1])});

@@ -39,6 +39,8 @@ class HarmonicStudy : public Study {
     return newton;
   }
 
+  bool wantsStability() const { return options_["stability"] == "on"; }
+
   std::shared_ptr<HarmonicResult> makeResult() const {
     auto result = std::make_shared<HarmonicResult>();
     result->provenance = provenance_;
@@ -106,6 +108,8 @@ class PeriodicMotionStudy final : public HarmonicStudy {
       point.correction = motion.report.correction();
       point.newtonIterations = std::max(0, static_cast<int>(motion.report.iterations.size()) - 1);
       point.z = motion.z;
+      if (wantsStability() && motion.report.converged())
+        point.stability = harmonic::floquetStability(*result->problem, point.z, omega);
       result->points.push_back(std::move(point));
     }
     if (motion.report.converged())
@@ -153,6 +157,7 @@ class FrequencyResponseStudy final : public HarmonicStudy {
     response.maximumStep = options_.value("maximum_step", 0.0);
     response.maximumPoints = options_["maximum_points"];
     response.locationTolerance = options_["location_tolerance"];
+    response.stability = wantsStability();
     response.newton = newtonOptions();
     return response;
   }

@@ -32,6 +32,10 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
       withDefault(integer("maximum_ramp_steps", "",
                           "Steps in which the drive may be raised where Newton's method fails from rest.", 1, 10'000),
                   64));
+  keys.push_back(
+      withDefault(choice("stability", "Whether to find the stability of each motion, and the bifurcations of a curve.",
+                         {"on", "off"}),
+                  "on"));
   keys.insert(keys.end(), last.begin(), last.end());
   return object(std::move(type), std::move(description), std::move(keys));
 }
@@ -61,9 +65,10 @@ const std::vector<ParameterSpec>& studySpecs() {
            step("minimum_step", "Smallest step before giving up; chosen if left out."),
            step("maximum_step", "Largest step; chosen if left out."),
            withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
-           withDefault(positive(number("location_tolerance", "", "Relative error of the frequency of folds and peaks.",
-                                       dimensions::none)),
-                       1e-6)})};
+           withDefault(
+               positive(number("location_tolerance", "",
+                               "Relative error of the frequency of folds, peaks and bifurcations.", dimensions::none)),
+               1e-6)})};
   return specs;
 }
 

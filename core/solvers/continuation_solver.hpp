@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/base/execution_context.hpp"
@@ -92,6 +93,12 @@ class ContinuationSolver {
   base::SolverReport trace(const Eigen::VectorXd& x, double parameter, base::ExecutionContext& context,
                            const PointCallback& onPoint);
 
+  /// For use while trace() calls `onPoint`, between points that it got: the solution at an arc length between those of
+  /// two others of the branch; none if the corrector fails or is cancelled.
+  std::optional<BranchPoint> solveBetween(const BranchPoint& from, const BranchPoint& to, double arcLength);
+  /// Likewise: linearises and factorises at a point, exactly, and goes on with these factors; false if singular.
+  bool factorizeAt(const BranchPoint& point);
+
  private:
   using Vector = Eigen::VectorXd;
   enum class Status { converged, failed, cancelled };
@@ -107,6 +114,9 @@ class ContinuationSolver {
     Vector monitors;
     double parameter() const { return y[y.size() - 1]; }
   };
+  /// A tangent that only serves to predict need not be better than the prediction.
+  static constexpr double predictingTangentTolerance = 1e-4;
+  static constexpr double exactTangentTolerance = 1e-7;
   struct Event {
     Point point;
     BranchEvent kind;
@@ -125,9 +135,11 @@ class ContinuationSolver {
   Status advance(const std::vector<Point>& history, double step, Point& to, double& growth);
   Status locateEvents(const Point& from, Point& to, std::vector<Event>& events);
   Status locate(const Point& from, const Point& to, const std::function<double(const Point&)>& function, Point& root);
+  Status solveBetween(const Point& from, const Point& to, double arcLength, Point& point);
   Status locateBound(const Point& from, const Point& to, double bound, Point& end);
   bool inRange(const Point& point) const;
   BranchPoint unscaled(const Point& point) const;
+  Point scaled(const BranchPoint& point) const;
 
   ContinuationProblem& problem_;
   ContinuationOptions options_;
