@@ -68,9 +68,9 @@ Moment findMoment(const MotionOptions& options) {
   if (result->points.empty()) throw InputError(folder.string(), "This result has no motion.");
   const harmonic::ResponsePoint& point = widestSwing(*result);
   moment.model = result->problem->sharedModel();
-  moment.problem = result->problem;
+  moment.problem = result->problemOf(point);
   moment.z = point.z;
-  moment.tau = std::fmod(point.omega * time, 2 * std::numbers::pi);
+  moment.tau = std::fmod(point.omega / point.drivePeriods * time, 2 * std::numbers::pi);
   moment.caption += (moment.caption.empty() ? "" : "\n") + study +
                     ", ω = " + base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
                     ", H = " + std::to_string(result->problem->basis().harmonics()) + ", residual " +

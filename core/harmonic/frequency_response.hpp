@@ -17,6 +17,10 @@ struct FrequencyResponseOptions {
   int maximumPoints = 2000;
   double locationTolerance = 1e-6;  ///< relative error of the frequency of folds, peaks and bifurcations
   bool stability = true;            ///< find the stability of every point, and the bifurcations
+  /// How many times over to follow the curves that branch off at branch points and period doublings. 1: those that
+  /// branch off the first curve; 2: also those that branch off these, and so on.
+  int branchDepth = 0;
+  Vector start;  ///< coefficients near which the first motion is looked for; empty: from rest
   PeriodicMotionOptions newton;
 };
 

@@ -68,6 +68,7 @@ double sampleAngle(int sample, int samples) { return 2 * std::numbers::pi * samp
 struct HarmonicBalanceProblem::Structure {
   std::shared_ptr<const Model> model;
   math::HarmonicBasis basis;
+  int drivePeriods;
   mechanics::ElasticAssembler assembler;
   SparseMatrix massToFree;  ///< coordinates x nFree
   SparseMatrix freeMass;
@@ -82,9 +83,10 @@ struct HarmonicBalanceProblem::Structure {
   Matrix loadCoefficients;  ///< f̂ of the free coordinates with all of the drive, (2H+1) x nFree
   double inertiaScale = 0;  ///< a ‖m‖ of forceScale [kg m]
 
-  Structure(std::shared_ptr<const Model> model_, const math::HarmonicBasis& basis_)
+  Structure(std::shared_ptr<const Model> model_, const math::HarmonicBasis& basis_, int drivePeriods_)
       : model(std::move(model_)),
         basis(basis_),
+        drivePeriods(drivePeriods_),
         assembler(model),
         massToFree(freeColumns(*model, model->massMatrix())),
         freeMass(freeRows(*model, massToFree)),
@@ -96,6 +98,11 @@ struct HarmonicBalanceProblem::Structure {
     sampleLoads();
   }
 
+  /// τ of the drive at a sample.
+  double driveAngle(int sample) const {
+    return drivePeriods * sampleAngle(sample < basis.samples() ? sample : 0, basis.samples());
+  }
+
   void sampleDrives(int padded) {
     steadyConfiguration = model->restPositions;
     std::vector<Matrix> swings;
@@ -103,8 +110,7 @@ struct HarmonicBalanceProblem::Structure {
       const std::vector<int>& driven = drive->coordinates();
       Matrix positions(padded, static_cast<Eigen::Index>(driven.size()));
       for (int i = 0; i < padded; ++i) {
-        const double tau = sampleAngle(i < basis.samples() ? i : 0, basis.samples());
-        positions.row(i) = drive->values(model->restPositions(driven), tau).transpose();
+        positions.row(i) = drive->values(model->restPositions(driven), driveAngle(i)).transpose();
       }
       const auto samples = positions.topRows(basis.samples());
       const Eigen::RowVectorXd mean = samples.colwise().mean();
@@ -134,8 +140,7 @@ struct HarmonicBalanceProblem::Structure {
 
   void sampleLoads() {
     Matrix forces(basis.samples(), model->coordinateCount());
-    for (int i = 0; i < basis.samples(); ++i)
-      forces.row(i) = model->externalForce(sampleAngle(i, basis.samples())).transpose();
+    for (int i = 0; i < basis.samples(); ++i) forces.row(i) = model->externalForce(driveAngle(i)).transpose();
     steadyForce = forces.colwise().mean();
     loadCoefficients = basis.analysis() * forces(Eigen::all, model->dofs.freeCoordinates);
   }
@@ -151,8 +156,10 @@ struct HarmonicBalanceProblem::Workspace {
   SolutionCost cost;
 };
 
-HarmonicBalanceProblem::HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis)
-    : structure_(std::make_shared<Structure>(std::move(model), basis)), workspace_(std::make_unique<Workspace>()) {}
+HarmonicBalanceProblem::HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis,
+                                               int drivePeriods)
+    : structure_(std::make_shared<Structure>(std::move(model), basis, drivePeriods)),
+      workspace_(std::make_unique<Workspace>()) {}
 
 HarmonicBalanceProblem::HarmonicBalanceProblem(const HarmonicBalanceProblem& other)
     : structure_(other.structure_), workspace_(std::make_unique<Workspace>()), driveFraction_(other.driveFraction_) {}
@@ -172,6 +179,23 @@ std::shared_ptr<const Model> HarmonicBalanceProblem::sharedModel() const { retur
 const math::HarmonicBasis& HarmonicBalanceProblem::basis() const { return structure_->basis; }
 const mechanics::ElasticAssembler& HarmonicBalanceProblem::assembler() const { return structure_->assembler; }
 Eigen::Index HarmonicBalanceProblem::size() const { return structure_->jacobian.size(); }
+int HarmonicBalanceProblem::drivePeriods() const { return structure_->drivePeriods; }
+
+HarmonicBalanceProblem HarmonicBalanceProblem::withDrivePeriods(int drivePeriods) const {
+  const auto scaled = [&](int count) { return count * drivePeriods / structure_->drivePeriods; };
+  return {structure_->model, {scaled(basis().harmonics()), scaled(basis().samples())}, drivePeriods};
+}
+
+Vector HarmonicBalanceProblem::stretched(const Vector& z, int drivePeriods) const {
+  const int factor = drivePeriods / structure_->drivePeriods;
+  const Eigen::Map<const Matrix> coefficients(z.data(), basis().size(), model().dofs.freeCount());
+  Matrix changed = Matrix::Zero(2 * factor * basis().harmonics() + 1, coefficients.cols());
+  changed.row(0) = coefficients.row(0);
+  for (int k = 1; k <= basis().harmonics(); ++k)
+    changed.middleRows(2 * factor * k - 1, 2) = coefficients.middleRows(2 * k - 1, 2);
+  return changed.reshaped();
+}
+
 const SparseMatrix& HarmonicBalanceProblem::freeMass() const { return structure_->freeMass; }
 SolutionCost& HarmonicBalanceProblem::cost() const { return workspace_->cost; }
 
@@ -241,9 +265,10 @@ Vector HarmonicBalanceProblem::residual(const Vector& z, double omega) const {
   return h;
 }
 
-void HarmonicBalanceProblem::linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian,
+void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, Vector& h, SparseMatrix* jacobian,
                                        Vector* frequencyDerivative, const StressSource* stresses) const {
   const Structure& s = *structure_;
+  const double omega = driveFrequency / s.drivePeriods;
   Workspace& w = *workspace_;
   const double massDamping = s.model->massDamping;
   const double stiffnessDamping = s.model->stiffnessDamping;
@@ -260,13 +285,15 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double omega, Vector& h,
           .reshaped();
   if (frequencyDerivative)
     *frequencyDerivative =
-        (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped();
+        (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped() /
+        s.drivePeriods;
   if (jacobian) s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
 }
 
-Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega,
+Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
                                                    const mechanics::DesignParameter& parameter) const {
   const Structure& s = *structure_;
+  const double omega = driveFrequency / s.drivePeriods;
   const Model& m = *s.model;
   const std::unique_ptr<mechanics::ModelDerivative> change = parameter.derivative(m);
   const int samples = s.basis.samples();
@@ -274,8 +301,8 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double omega
   const Matrix positions = workspace_->positions.topRows(samples);
   Matrix loads(samples, m.coordinateCount()), moved(samples, m.coordinateCount());
   for (int i = 0; i < samples; ++i) {
-    loads.row(i) = change->externalForce(sampleAngle(i, samples)).transpose();
-    moved.row(i) = change->prescribed(sampleAngle(i, samples)).transpose();
+    loads.row(i) = change->externalForce(s.driveAngle(i)).transpose();
+    moved.row(i) = change->prescribed(s.driveAngle(i)).transpose();
   }
   Matrix gradients = change->gradient(positions);
   Matrix inertial = inertialCoefficients(z, freeColumns(m, change->mass()));
@@ -332,7 +359,7 @@ Vector HarmonicBalanceProblem::configurationAt(const Vector& z, double tau) cons
   const Structure& s = *structure_;
   const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
   const Vector free = coefficients.transpose() * s.basis.valuesAt(tau);
-  Vector positions = s.model->configuration(free, tau);
+  Vector positions = s.model->configuration(free, s.drivePeriods * tau);
   for (const int coordinate : s.drivenCoordinates)
     positions[coordinate] = s.steadyConfiguration[coordinate] +
                             driveFraction_ * (positions[coordinate] - s.steadyConfiguration[coordinate]);

@@ -42,7 +42,9 @@ struct StressSource {
 /// coefficients of one coordinate stand together (constant, sin τ, cos τ, sin 2τ, ...). Prescribed nodes are
 /// eliminated: they enter with their exact samples. h is laid out alike and is in newtons:
 ///   h = (ω² d² ⊗ M + D_α ω d ⊗ M) z + (1 + D_β ω d) ĝ − f̂
-/// with d the derivative over τ and ĝ, f̂ the coefficients of ∇E and of the external force. Mass and damping that couple
+/// with d the derivative over τ and ĝ, f̂ the coefficients of ∇E and of the external force. Motions that repeat only
+/// after ν periods of the drive (`drivePeriods`) are series in τ = ωt/ν, ω being the frequency of the drive all the
+/// same: in the formula, ω/ν stands for ω. Mass and damping that couple
 /// free to prescribed coordinates are included.
 ///
 /// Threads: `residual`, `linearize` and `parameterDerivative` use working memory of the object, so one thread at a time
@@ -50,7 +52,7 @@ struct StressSource {
 /// own.
 class HarmonicBalanceProblem {
  public:
-  HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis);
+  HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis, int drivePeriods = 1);
   HarmonicBalanceProblem(const HarmonicBalanceProblem& other);
   HarmonicBalanceProblem(HarmonicBalanceProblem&&) noexcept;
   HarmonicBalanceProblem& operator=(HarmonicBalanceProblem other) noexcept;
@@ -60,6 +62,12 @@ class HarmonicBalanceProblem {
   std::shared_ptr<const Model> sharedModel() const;
   const math::HarmonicBasis& basis() const;
   const mechanics::ElasticAssembler& assembler() const;
+  /// ν: periods of the drive in one period of z.
+  int drivePeriods() const;
+  /// The same problem for motions that repeat after `drivePeriods` periods of the drive, with harmonics and samples in
+  /// proportion; `stretched` gives this problem's motions as its.
+  HarmonicBalanceProblem withDrivePeriods(int drivePeriods) const;
+  Vector stretched(const Vector& z, int drivePeriods) const;
   /// Number of unknowns, (2H+1) nFree.
   Eigen::Index size() const;
 

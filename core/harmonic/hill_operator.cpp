@@ -3,7 +3,7 @@
 namespace pliant::harmonic {
 
 HillOperator::HillOperator(const HarmonicBalanceProblem& problem, const JacobianSolver& solver, double omega)
-    : problem_(problem), solver_(solver), mass_(problem.freeMass()), omega_(omega) {}
+    : problem_(problem), solver_(solver), mass_(problem.freeMass()), omega_(omega / problem.drivePeriods()) {}
 
 /// K̂ p, from ∂h/∂z p = (ω² d² + D_α ω d) M p + (1 + D_β ω d) K̂ p.
 Vector HillOperator::stiffnessTimes(const Vector& p, const Matrix& massTimes) const {

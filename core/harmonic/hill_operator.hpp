@@ -13,7 +13,7 @@ namespace pliant::harmonic {
 /// whose eigenvalues are 1/ρ with v = p: exponents near zero come first.
 class HillOperator {
  public:
-  /// `solver` must be linearised (without extrapolated stresses) and factorised at the motion.
+  /// `solver` must be linearised (without extrapolated stresses) and factorised at the motion. `omega`: of the drive.
   HillOperator(const HarmonicBalanceProblem& problem, const JacobianSolver& solver, double omega);
 
   Eigen::Index size() const { return 2 * problem_.size(); }
@@ -24,8 +24,8 @@ class HillOperator {
 
   const HarmonicBalanceProblem& problem_;
   const JacobianSolver& solver_;
-  SparseMatrix mass_;
-  double omega_;
+  const SparseMatrix& mass_;
+  double omega_;  ///< of z
 };
 
 }  // namespace pliant::harmonic

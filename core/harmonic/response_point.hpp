@@ -22,6 +22,8 @@ enum class PointKind {
 /// One solution on a curve.
 struct ResponsePoint {
   PointKind kind = PointKind::regular;
+  int branch = 0;        ///< which curve it is on: 0 is the first, others branch off at bifurcations
+  int drivePeriods = 1;  ///< periods of the drive in one period of z
   int probe = -1;        ///< peak: of which probe; -1 for a model without probes
   double omega = 0;      ///< [rad/s]
   double arcLength = 0;  ///< along the curve, in the scaled measure (Δz / swing at the start, Δω / range)

@@ -84,6 +84,7 @@ std::optional<TrackedPoint> StabilityTracker::locate(const TrackedPoint& from, c
   double fb = growth(b, index);
   int side = 0;
   double lastPosition = -1;
+  const double whole = to.at.arcLength - from.at.arcLength;
   for (int evaluation = 0; evaluation < mostEvaluations; ++evaluation) {
     const double length = b.at.arcLength - a.at.arcLength;
     const double position = a.at.arcLength + length * std::clamp(fa / (fa - fb), 0.01, 0.99);
@@ -93,7 +94,10 @@ std::optional<TrackedPoint> StabilityTracker::locate(const TrackedPoint& from, c
     if (!known(root)) return std::nullopt;
     const double f = growth(root, index);
     const double moved = lastPosition < 0 ? length : std::min(std::abs(position - lastPosition), length);
-    if (f == 0 || moved * std::abs(at->parameterDirection) <= 0.1 * tolerance_ * std::abs(at->parameter)) return root;
+    // Near a fold, where the frequency hardly changes, the place on the curve has to be right as well.
+    if (f == 0 || (moved <= 1e-4 * whole &&
+                   moved * std::abs(at->parameterDirection) <= 0.1 * tolerance_ * std::abs(at->parameter)))
+      return root;
     lastPosition = position;
     if ((f > 0) == (fa > 0)) {
       a = std::move(root);

@@ -67,6 +67,7 @@ void addStability(const harmonic::Stability& stability, Json& json) {
 Json peakEntry(const HarmonicResult& result, const ResponsePoint& point) {
   Json entry;
   addFrequency(entry, point.omega);
+  if (point.branch > 0) entry["branch"] = point.branch;
   if (point.probe < 0) return entry;
   entry["probe"] = result.problem->model().probes[static_cast<std::size_t>(point.probe)].name;
   const auto& amplitude = point.amplitudes[static_cast<std::size_t>(point.probe)];
@@ -76,7 +77,7 @@ Json peakEntry(const HarmonicResult& result, const ResponsePoint& point) {
 }
 
 Json bifurcationEntry(const HarmonicResult& result, const ResponsePoint& point) {
-  Json entry{{"kind", nameOf(point.kind)}};
+  Json entry{{"kind", nameOf(point.kind)}, {"branch", point.branch}};
   addFrequency(entry, point.omega);
   entry["probes"] = probesAt(result, point);
   if (const auto critical = harmonic::criticalMultiplier(point); critical != 0.0)
@@ -155,6 +156,16 @@ void addConstraintViolation(const HarmonicResult& result, Json& json) {
 }
 
 }  // namespace
+
+std::shared_ptr<const harmonic::HarmonicBalanceProblem> HarmonicResult::problemOf(const ResponsePoint& point) const {
+  return point.drivePeriods == 1 ? problem : subharmonicProblems_.at(point.drivePeriods);
+}
+
+void HarmonicResult::addProblemOf(const ResponsePoint& point) {
+  if (point.drivePeriods == 1 || subharmonicProblems_.contains(point.drivePeriods)) return;
+  subharmonicProblems_[point.drivePeriods] =
+      std::make_shared<const harmonic::HarmonicBalanceProblem>(problem->withDrivePeriods(point.drivePeriods));
+}
 
 Json HarmonicResult::summary() const {
   const auto& model = problem->model();

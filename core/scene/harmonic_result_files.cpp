@@ -20,13 +20,22 @@ using mechanics::Model;
 namespace {
 
 constexpr std::string_view axisNames = "xyz";
-constexpr std::size_t columnsBeforeProbes = 11;  ///< of response.csv
+constexpr std::size_t columnsBeforeProbes = 13;  ///< of response.csv
 constexpr std::size_t columnsBeforeCoefficients = 3;
+constexpr int mostDrivePeriods = 1 << 16;  ///< a larger number in a file is damage
 
 std::string responseTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
   CsvWriter csv;
-  csv.add("point").add("kind").add("peak of").add("omega [rad/s]").add("arc length").add("residual").add("correction");
+  csv.add("point")
+      .add("kind")
+      .add("peak of")
+      .add("branch")
+      .add("drive periods")
+      .add("omega [rad/s]")
+      .add("arc length")
+      .add("residual")
+      .add("correction");
   csv.add("stability").add("unstable multipliers").add("critical multiplier").add("critical multiplier, imaginary");
   for (const auto& probe : model.probes)
     csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
@@ -35,6 +44,7 @@ std::string responseTable(const HarmonicResult& result) {
   for (const ResponsePoint& point : result.points) {
     csv.add(index++).add(nameOf(point.kind));
     csv.add(point.probe < 0 ? std::string_view() : model.probes[static_cast<std::size_t>(point.probe)].name);
+    csv.add(point.branch).add(point.drivePeriods);
     csv.add(point.omega).add(point.arcLength).add(point.residual).add(point.correction);
     csv.add(nameOf(point.stability.state)).add(point.stability.unstableCount);
     const std::complex<double> critical = harmonic::criticalMultiplier(point);
@@ -47,7 +57,9 @@ std::string responseTable(const HarmonicResult& result) {
 
 std::string coefficientTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
-  const int harmonics = result.problem->basis().harmonics(), count = result.problem->basis().size();
+  int harmonics = result.problem->basis().harmonics();
+  for (const ResponsePoint& point : result.points)
+    harmonics = std::max(harmonics, result.problemOf(point)->basis().harmonics());
   CsvWriter csv;
   csv.add("point").add("node").add("axis").add("constant [m]");
   for (int k = 1; k <= harmonics; ++k)
@@ -55,11 +67,13 @@ std::string coefficientTable(const HarmonicResult& result) {
   csv.endRow();
   int index = 0;
   for (const ResponsePoint& point : result.points) {
+    const int count = result.problemOf(point)->basis().size();
     for (int free = 0; free < model.dofs.freeCount(); ++free) {
       const int coordinate = model.dofs.freeCoordinates[static_cast<std::size_t>(free)];
       csv.add(index).add(coordinate / model.dimension);
       csv.add(axisNames.substr(static_cast<std::size_t>(coordinate % model.dimension), 1));
       for (int i = 0; i < count; ++i) csv.add(point.z[free * count + i]);
+      for (int i = count; i <= 2 * harmonics; ++i) csv.add(0.0);
       csv.endRow();
     }
     ++index;
@@ -69,7 +83,6 @@ std::string coefficientTable(const HarmonicResult& result) {
 
 std::string trajectoryTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
-  const int samples = result.problem->basis().samples();
   CsvWriter csv;
   csv.add("point").add("sample").add("omega t [rad]");
   for (const auto& probe : model.probes)
@@ -79,9 +92,11 @@ std::string trajectoryTable(const HarmonicResult& result) {
   int index = 0;
   for (const ResponsePoint& point : result.points) {
     std::vector<mechanics::Matrix> paths;
-    for (const auto& probe : model.probes) paths.push_back(result.problem->nodeTrajectory(point.z, probe.node));
+    const auto problem = result.problemOf(point);
+    const int samples = problem->basis().samples();
+    for (const auto& probe : model.probes) paths.push_back(problem->nodeTrajectory(point.z, probe.node));
     for (int sample = 0; sample < samples; ++sample) {
-      csv.add(index).add(sample).add(2 * std::numbers::pi * sample / samples);
+      csv.add(index).add(sample).add(2 * std::numbers::pi * point.drivePeriods * sample / samples);
       for (const auto& path : paths)
         for (int axis = 0; axis < model.dimension; ++axis) csv.add(path(sample, axis));
       csv.endRow();
@@ -148,7 +163,6 @@ std::shared_ptr<const Model> modelOf(const Scene& scene, const Json& summary) {
 void readPoints(HarmonicResult& result, const std::string& response, const std::string& coefficients) {
   const Model& model = result.problem->model();
   const auto rows = readCsv(response), values = readCsv(coefficients);
-  const auto count = static_cast<std::size_t>(result.problem->basis().size());
   const auto freeCount = static_cast<std::size_t>(model.dofs.freeCount());
   const std::size_t probeCount = model.probes.size();
   if (values.size() != rows.size() * freeCount) otherScene();
@@ -159,13 +173,18 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     point.kind = pointKindOf(row[1]);
     for (std::size_t p = 0; p < probeCount; ++p)
       if (row[2] == model.probes[p].name) point.probe = static_cast<int>(p);
-    point.omega = csvNumber(row[3]);
-    point.arcLength = csvNumber(row[4]);
-    point.residual = csvNumber(row[5]);
-    point.correction = csvNumber(row[6]);
-    point.stability.state = stabilityStateOf(row[7]);
-    point.stability.unstableCount = csvInteger(row[8]);
-    if (const std::complex critical(csvNumber(row[9]), csvNumber(row[10])); critical != 0.0)
+    point.branch = csvInteger(row[3]);
+    point.drivePeriods = csvInteger(row[4]);
+    if (point.drivePeriods < 1 || point.drivePeriods > mostDrivePeriods) otherScene();
+    result.addProblemOf(point);
+    const auto count = static_cast<std::size_t>(result.problemOf(point)->basis().size());
+    point.omega = csvNumber(row[5]);
+    point.arcLength = csvNumber(row[6]);
+    point.residual = csvNumber(row[7]);
+    point.correction = csvNumber(row[8]);
+    point.stability.state = stabilityStateOf(row[9]);
+    point.stability.unstableCount = csvInteger(row[10]);
+    if (const std::complex critical(csvNumber(row[11]), csvNumber(row[12])); critical != 0.0)
       point.stability.multipliers.push_back(critical);
     for (std::size_t p = 0; p < probeCount; ++p)
       point.amplitudes.push_back(
@@ -175,7 +194,7 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     for (std::size_t free = 0; free < freeCount; ++free) {
       const auto& cells = values[i * freeCount + free];
       const int coordinate = model.dofs.freeCoordinates[free];
-      if (cells.size() != columnsBeforeCoefficients + count || csvInteger(cells[1]) != coordinate / model.dimension ||
+      if (cells.size() < columnsBeforeCoefficients + count || csvInteger(cells[1]) != coordinate / model.dimension ||
           cells[2] != axisNames.substr(static_cast<std::size_t>(coordinate % model.dimension), 1))
         otherScene();
       for (std::size_t c = 0; c < count; ++c)

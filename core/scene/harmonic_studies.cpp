@@ -133,6 +133,7 @@ class FrequencyResponseStudy final : public HarmonicStudy {
     result->isCurve = true;
     result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(problem);
     const auto onPoint = [&](const harmonic::ResponsePoint& point) {
+      result->addProblemOf(point);
       result->points.push_back(point);
       if (!observe || sinceSnapshot.seconds() < secondsBetweenSnapshots) return;
       sinceSnapshot = {};

@@ -86,11 +86,19 @@ class HarmonicResult final : public Result {
   /// the result was computed. Throws base::InputError.
   static std::shared_ptr<HarmonicResult> read(const Scene& scene, const std::filesystem::path& directory);
 
+  /// The problem whose motion a point is: `problem`, or that with its number of drive periods.
+  std::shared_ptr<const harmonic::HarmonicBalanceProblem> problemOf(const harmonic::ResponsePoint& point) const;
+  /// Makes problemOf(point) if it is not there yet.
+  void addProblemOf(const harmonic::ResponsePoint& point);
+
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
   ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
   bool isCurve = false;                                              ///< true for a frequency_response
+
+ private:
+  std::map<int, std::shared_ptr<const harmonic::HarmonicBalanceProblem>> subharmonicProblems_;  ///< by drive periods
 };
 
 /// Called from the working thread with a snapshot of what there is so far, at most about 20 times a second.

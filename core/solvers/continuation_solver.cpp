@@ -14,6 +14,8 @@ constexpr int maximumCorrections = 25;
 /// Corrections that shrink less than this from one to the next are not worth going on with: new factors cost about as
 /// much as ten corrections.
 constexpr double slowContraction = 0.3;
+/// How near a step, relative to its length, must pass by the first point for the branch to be closed.
+constexpr double closingDistance = 0.01;
 /// What the first contraction after a prediction should be: larger steps save points, smaller ones corrections.
 constexpr double targetContraction = 0.1;
 /// Points, with their tangents, that a prediction is extrapolated from.
@@ -213,6 +215,32 @@ ContinuationSolver::Status ContinuationSolver::advance(const std::vector<Point>&
   return near && angle <= options_.maximumAngle ? Status::converged : Status::failed;
 }
 
+ContinuationSolver::Vector ContinuationSolver::startNormal(Eigen::Index n) const {
+  if (options_.startDirection.size() == 0) return Vector::Unit(n + 1, n) * (options_.orientation < 0 ? -1.0 : 1.0);
+  Vector normal(n + 1);
+  normal << options_.startDirection / options_.stateScale, options_.startParameterDirection / options_.parameterScale;
+  return normal.normalized();
+}
+
+/// The first point of the branch again, if the branch passes through it between two later ones.
+std::optional<ContinuationSolver::Point> ContinuationSolver::closingPoint(const Point& first, const Point& from,
+                                                                          const Point& to) const {
+  const Vector chord = to.y - from.y;
+  const double share = (first.y - from.y).dot(chord) / chord.squaredNorm();
+  if (from.arcLength <= first.arcLength || share <= 0 || share > 1 || first.tangent.dot(chord) <= 0)
+    return std::nullopt;
+  HermiteCurve cubic;
+  cubic.add(from.arcLength, from.y, from.tangent);
+  cubic.add(to.arcLength, to.y, to.tangent);
+  double position = from.arcLength + share * (to.arcLength - from.arcLength);
+  const Vector rate = cubic.derivative(position);
+  position += (first.y - cubic.value(position)).dot(rate) / rate.squaredNorm();
+  if ((first.y - cubic.value(position)).norm() > closingDistance * chord.norm()) return std::nullopt;
+  Point closing = first;
+  closing.arcLength = position;
+  return closing;
+}
+
 base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double parameter,
                                              base::ExecutionContext& context, const PointCallback& onPoint) {
   using base::TerminationType;
@@ -235,12 +263,12 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
   Point current;
   current.y.resize(n + 1);
   current.y << x / options_.stateScale, parameter / options_.parameterScale;
-  const Vector start = Vector::Unit(n + 1, n) * (options_.orientation < 0 ? -1.0 : 1.0);
-  Status status = solveAt(current, Vector(current.y), start, nullptr, 0, exactTangentTolerance);
+  Status status = solveAt(current, Vector(current.y), startNormal(n), nullptr, 0, exactTangentTolerance);
   if (status == Status::cancelled) return finish(TerminationType::cancelled, "The continuation was cancelled.");
   if (status != Status::converged)
     return finish(TerminationType::failed, "The starting point is no solution that a branch can be followed from.");
   emit(current, 0, BranchEvent::none, -1);
+  if (problem_.ends()) return finish(TerminationType::converged);
 
   std::vector<Point> history = {current};
   double step = options_.initialStep;
@@ -261,9 +289,15 @@ base::SolverReport ContinuationSolver::trace(const Eigen::VectorXd& x, double pa
             TerminationType::failed, "The continuation is stuck: no step, however short, reaches a solution.");
       continue;
     }
+    const std::optional<Point> closing = closingPoint(current, history.back(), next);
     for (const Event& event : events) {
+      if (closing && event.point.arcLength >= closing->arcLength) continue;
       emit(event.point, step, event.kind, event.monitor);
-      if (event.end) return finish(TerminationType::converged);
+      if (event.end || problem_.ends()) return finish(TerminationType::converged);
+    }
+    if (closing) {
+      emit(*closing, step, BranchEvent::none, -1);
+      return finish(TerminationType::converged);
     }
     step *= std::clamp(growth, 0.3, 3.0);
     history.push_back(next);

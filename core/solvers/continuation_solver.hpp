@@ -51,6 +51,8 @@ class ContinuationProblem {
   virtual bool factorize() = 0;
   /// (∂h/∂x)⁻¹ b with the factors that there are, which may belong to an earlier point.
   virtual Eigen::VectorXd solve(const Eigen::VectorXd& b) = 0;
+  /// Asked after each point: true if the branch is to end with it.
+  virtual bool ends() { return false; }
   /// Functions along the branch whose changes from positive to negative are located as points.
   virtual Eigen::VectorXd monitors(const BranchPoint&) { return {}; }
 };
@@ -59,7 +61,11 @@ struct ContinuationOptions {
   double lower = 0;  ///< the branch is followed while λ stays in [lower, upper]
   double upper = 1;
   double orientation = 1;  ///< sign of dλ/ds at the start
-  double stateScale = 1;   ///< the arc length is measured in (x / stateScale, λ / parameterScale)
+  /// Where the branch sets off (unscaled); if not empty, the start is corrected in the plane normal to it instead of at
+  /// its λ, and `orientation` does not count.
+  Eigen::VectorXd startDirection;
+  double startParameterDirection = 0;
+  double stateScale = 1;  ///< the arc length is measured in (x / stateScale, λ / parameterScale)
   double parameterScale = 1;
   double initialStep = 0.005;
   double minimumStep = 1e-6;
@@ -89,7 +95,7 @@ class ContinuationSolver {
   ContinuationSolver(ContinuationProblem& problem, const ContinuationOptions& options);
 
   /// Follows the branch from the solution (x, λ) until λ leaves [lower, upper]; the last point lies exactly on the
-  /// bound. The report has one record a point.
+  /// bound. A closed branch ends with a copy of its first point. The report has one record a point.
   base::SolverReport trace(const Eigen::VectorXd& x, double parameter, base::ExecutionContext& context,
                            const PointCallback& onPoint);
 
@@ -137,6 +143,8 @@ class ContinuationSolver {
   Status locate(const Point& from, const Point& to, const std::function<double(const Point&)>& function, Point& root);
   Status solveBetween(const Point& from, const Point& to, double arcLength, Point& point);
   Status locateBound(const Point& from, const Point& to, double bound, Point& end);
+  Vector startNormal(Eigen::Index n) const;
+  std::optional<Point> closingPoint(const Point& first, const Point& from, const Point& to) const;
   bool inRange(const Point& point) const;
   BranchPoint unscaled(const Point& point) const;
   Point scaled(const BranchPoint& point) const;

@@ -132,8 +132,9 @@ void MotionSession::follow(const std::string& name) {
     for (int i = 0; i < static_cast<int>(result->points.size()); ++i) {
       const auto& point = result->points[i];
       if (point.kind != harmonic::PointKind::peak) continue;
-      if (best < 0 || amplitudeOf(*result->problem, point.z, node_, measure_) >
-                          amplitudeOf(*result->problem, result->points[best].z, node_, measure_))
+      if (best < 0 ||
+          amplitudeOf(*result->problemOf(point), point.z, node_, measure_) >
+              amplitudeOf(*result->problemOf(result->points[best]), result->points[best].z, node_, measure_))
         best = i;
     }
     if (best >= 0) showPoint(name, best);
@@ -151,8 +152,8 @@ void MotionSession::showPoint(const std::string& name, int point) {
   motion.z = found.z;
   motion.report.termination = base::TerminationType::converged;
   motion.report.iterations.push_back({found.newtonIterations, found.residual, 0, found.correction});
-  show({result->problem, std::move(motion), *study->solvedScene, result->isCurve ? nullptr : result->sensitivity, name,
-        point});
+  show({result->problemOf(found), std::move(motion), *study->solvedScene,
+        result->isCurve ? nullptr : result->sensitivity, name, point});
 }
 
 void MotionSession::show(ShownMotion shown) {
@@ -229,16 +230,17 @@ void MotionSession::solveAt(double omega, const std::string& name, int nearestPo
   Job job;
   job.topic = motionTopic;
   job.title = tr("Motion at %1 rad/s").arg(omega, 0, 'g', 4);
-  job.work = [this, omega, result, scene = *study->solvedScene, start = result->points[nearestPoint].z](
+  job.work = [this, omega, result, scene = *study->solvedScene, near = result->points[nearestPoint]](
                  base::ExecutionContext& context, const Publish&) -> Delivery {
-    HarmonicBalanceProblem problem(*result->problem);
-    PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, start);
+    const auto shared = result->problemOf(near);
+    HarmonicBalanceProblem problem(*shared);
+    PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, near.z);
     if (!motion.report.converged()) {
       return [this, message = QString::fromStdString(motion.report.message)] {
         document_.raise(base::Severity::warning, message);
       };
     }
-    return [this, result, scene, motion] { show({result->problem, motion, scene, nullptr, {}, -1}); };
+    return [this, shared, scene, motion] { show({shared, motion, scene, nullptr, {}, -1}); };
   };
   quick_.submit(std::move(job));
   Q_EMIT busyChanged(true);
@@ -257,10 +259,11 @@ void MotionSession::update() {
   Job job;
   job.topic = motionTopic;
   job.title = tr("Update of the motion at %1 rad/s").arg(shown_->motion.omega, 0, 'g', 4);
-  job.work = [this, model, scene = document_.scene(), basis = shown_->problem->basis(), omega = shown_->motion.omega,
+  job.work = [this, model, scene = document_.scene(), basis = shown_->problem->basis(),
+              drivePeriods = shown_->problem->drivePeriods(), omega = shown_->motion.omega,
               start = prediction_.value_or(shown_->motion.z),
               predicted](base::ExecutionContext& context, const Publish&) -> Delivery {
-    HarmonicBalanceProblem problem(model, basis);
+    HarmonicBalanceProblem problem(model, basis, drivePeriods);
     const Vector from = start.size() == problem.size() ? start : Vector();
     PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, from);
     if (!motion.report.converged()) {

@@ -215,7 +215,7 @@ void ResponsePanel::refreshCurve() {
     std::vector<double> amplitudes;
     for (const auto& point : result->points) {
       if (context.cancelRequested()) return {};
-      amplitudes.push_back(jobs::amplitudeOf(*result->problem, point.z, node, measure));
+      amplitudes.push_back(jobs::amplitudeOf(*result->problemOf(point), point.z, node, measure));
     }
     return [this, result, amplitudes] {
       if (drawn_ == result) showCurves(result.get(), amplitudes);

@@ -34,6 +34,18 @@ void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double
 
 }  // namespace
 
+QString landmarkName(harmonic::PointKind kind) {
+  switch (kind) {
+    case harmonic::PointKind::regular: return {};
+    case harmonic::PointKind::fold: return ResponsePlot::tr("fold");
+    case harmonic::PointKind::peak: return ResponsePlot::tr("peak");
+    case harmonic::PointKind::branchPoint: return ResponsePlot::tr("branch point");
+    case harmonic::PointKind::periodDoubling: return ResponsePlot::tr("period doubling");
+    case harmonic::PointKind::neimarkSacker: return ResponsePlot::tr("Neimark-Sacker");
+  }
+  return {};
+}
+
 void ResponsePlot::redrawCurves() {
   Parts& p = *parts_;
   enlargeToFit();
@@ -75,8 +87,8 @@ void ResponsePlot::redrawCurves() {
       label->setFont(small);
       label->setColor(faded ? p.style.mutedText : peak ? p.style.text : p.style.mutedText);
       const QString frequency = formatFrequency(curve->omega[i], p.hertz);
-      p.landmarks.push_back({curve->omega[i], curve->amplitude[i], peak,
-                             peak ? tr("peak %1").arg(frequency) : tr("fold %1").arg(frequency), label});
+      p.landmarks.push_back(
+          {curve->omega[i], curve->amplitude[i], peak, landmarkName(kind) + QStringLiteral(" ") + frequency, label});
     }
   }
   fill(p.folds, folds, perOmega, perMetre);

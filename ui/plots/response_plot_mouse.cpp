@@ -99,8 +99,7 @@ QString ResponsePlot::pointText(int index) const {
   const ResponseCurve& curve = p.curves[p.selectedCurve];
   QString kind;
   if (index < static_cast<int>(curve.kinds.size())) {
-    if (curve.kinds[index] == harmonic::PointKind::peak) kind = tr("peak: ");
-    if (curve.kinds[index] == harmonic::PointKind::fold) kind = tr("fold: ");
+    if (const QString name = landmarkName(curve.kinds[index]); !name.isEmpty()) kind = name + QStringLiteral(": ");
   }
   return QStringLiteral("%1%2, %3")
       .arg(kind, formatFrequency(curve.omega[index], p.hertz), formatLength(curve.amplitude[index]));

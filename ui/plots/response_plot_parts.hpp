@@ -11,7 +11,7 @@
 
 namespace pliant::plots {
 
-/// A fold or a peak with its text.
+/// A peak, or a fold or another bifurcation, with its text.
 struct Landmark {
   double omega = 0;
   double amplitude = 0;
@@ -19,6 +19,9 @@ struct Landmark {
   QString text;
   QCPItemText* label = nullptr;
 };
+
+/// "fold", "peak", ...; empty for a regular point.
+QString landmarkName(harmonic::PointKind kind);
 
 /// What a ResponsePlot is made of.
 struct ResponsePlot::Parts {
