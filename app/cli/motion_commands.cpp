@@ -30,9 +30,13 @@ struct Moment {
 
 std::string studyWithResult(const scene::Scene& scene, const MotionOptions& options) {
   if (!options.study.empty()) return options.study;
-  for (const std::string& name : scene::studyNames(scene))
-    if (std::filesystem::exists(std::filesystem::path(options.result) / name / "summary.json")) return name;
-  throw InputError(options.result, "This folder has no result of any study of the scene.");
+  for (const std::string& name : scene::studyNames(scene)) {
+    const auto summary = std::filesystem::path(options.result) / name / "summary.json";
+    if (std::filesystem::exists(summary) &&
+        scene::parseJson(scene::readTextFile(summary)).value("kind", "") == "harmonic")
+      return name;
+  }
+  throw InputError(options.result, "This folder has no result with periodic motions of any study of the scene.");
 }
 
 /// The point of a curve where the probes together swing widest.

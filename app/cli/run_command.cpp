@@ -74,14 +74,10 @@ void printIterations(const Json& iterations) {
   }
 }
 
-void printSummary(const Json& summary) {
-  std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
-            << summary["newton_iterations"] << " Newton iterations, "
-            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n  residual "
+void printHarmonic(const Json& summary) {
+  std::cout << "  " << summary["newton_iterations"] << " Newton iterations, residual "
             << base::formatQuantity(summary["residual"].get<double>(), {}) << " of the driving force, last correction "
             << base::formatQuantity(summary["correction"].get<double>(), {}) << " of the swing\n";
-  if (const auto message = summary["message"].get<std::string>(); !message.empty())
-    std::cout << "  " << message << "\n";
   std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
             << " unknowns\n";
   if (summary.contains("iterations")) printIterations(summary["iterations"]);
@@ -99,6 +95,28 @@ void printSummary(const Json& summary) {
     std::cout << "\n";
   }
   for (const Json& fold : summary["folds"]) std::cout << "  fold at " << frequency(fold) << "\n";
+}
+
+void printModes(const Json& summary) {
+  std::cout << "  mode  frequency [rad/s]        [Hz]  damping ratio  residual\n";
+  int number = 0;
+  for (const Json& mode : summary["modes"]) {
+    char line[80];
+    std::snprintf(line, sizeof line, "  %4d  %17.6g  %10.5g  %13.4g  %8.1e\n", ++number,
+                  mode["frequency"].get<double>(), mode["frequency_hz"].get<double>(),
+                  mode["damping_ratio"].get<double>(), mode["residual"].get<double>());
+    std::cout << line;
+  }
+}
+
+void printSummary(const Json& summary) {
+  std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
+            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
+  if (const auto message = summary["message"].get<std::string>(); !message.empty())
+    std::cout << "  " << message << "\n";
+  const std::string kind = summary["kind"];
+  if (kind == "harmonic") printHarmonic(summary);
+  if (kind == "modes") printModes(summary);
 }
 
 void printExpected(const std::vector<scene::ExpectedValue>& values) {

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <complex>
-#include <ctime>
 #include <numbers>
 
 #include "core/harmonic/constraint_violation.hpp"
-#include "core/math/parallel.hpp"
 #include "core/scene/harmonic_names.hpp"
+#include "core/scene/run_information.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
@@ -14,20 +13,6 @@ using harmonic::PointKind;
 using harmonic::ResponsePoint;
 
 namespace {
-
-std::string now() {
-  const std::time_t time = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&time, &utc);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
-void addFrequency(Json& json, double omega) {
-  json["frequency"] = omega;
-  json["frequency_hz"] = omega / (2 * std::numbers::pi);
-}
 
 /// What each probe does at one point.
 Json probesAt(const HarmonicResult& result, const ResponsePoint& point) {
@@ -169,11 +154,7 @@ void HarmonicResult::addProblemOf(const ResponsePoint& point) {
 
 Json HarmonicResult::summary() const {
   const auto& model = problem->model();
-  Json json{{"kind", kind()},
-            {"study", provenance.study},
-            {"type", isCurve ? "frequency_response" : "periodic_motion"},
-            {"termination", base::toString(termination)},
-            {"message", message}};
+  Json json = summaryHead(*this);
   if (isCurve)
     addCurve(*this, json);
   else
@@ -184,13 +165,7 @@ Json HarmonicResult::summary() const {
   json["unknowns"] = problem->size();
   json["nodes"] = model.nodeCount();
   json["free_coordinates"] = model.dofs.freeCount();
-  Json parameters = Json::array();
-  for (const auto& parameter : model.parameters)
-    parameters.push_back({{"name", parameter->name()},
-                          {"pointer", parameter->pointer()},
-                          {"value", parameter->value(model)},
-                          {"unit", base::siUnit(parameter->dimension())}});
-  json["parameters"] = parameters;
+  json["parameters"] = parameterValues(model);
   json["units"] = {{"frequency", "rad/s"},
                    {"frequency_hz", "Hz"},
                    {"path_length", "m"},
@@ -200,10 +175,7 @@ Json HarmonicResult::summary() const {
                    {"correction", "relative to the swing"},
                    {"largest_constraint_violation", "relative to the length of the link or bar"},
                    {"seconds", "s"}};
-  json["seconds"] = seconds;
-  json["provenance"] = {{"version", provenance.version},      {"scene", provenance.sceneName},
-                        {"scene_hash", provenance.sceneHash}, {"date", now()},
-                        {"threads", math::threadCount()},     {"options", provenance.options}};
+  addRunInformation(json, *this);
   return json;
 }
 

@@ -251,6 +251,9 @@ std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const s
   locate((directory / "summary.json").string(), [&] {
     try {
       const Json summary = parseJson(text);
+      if (summary.at("kind") != result->kind())
+        throw InputError(
+            "", "This result has no periodic motions: it is of the kind " + summary.at("kind").dump() + ".");
       const math::HarmonicBasis basis(summary.at("harmonics"), summary.at("samples"));
       readSummary(*result, summary);
       result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(modelOf(scene, summary), basis);

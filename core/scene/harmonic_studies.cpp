@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/run_information.hpp"
 
 namespace pliant::scene {
 
@@ -17,9 +18,7 @@ constexpr double mostJacobianEntries = 2e8;
 class HarmonicStudy : public Study {
  public:
   HarmonicStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
-      : model_(std::move(model)),
-        options_(options),
-        provenance_{PLIANT_VERSION, scene.name(), hashScene(scene), options["name"], options} {
+      : model_(std::move(model)), options_(options), provenance_(provenanceOf(scene, options)) {
     requireModestSize(scene, options.contains("harmonics_tolerance") ? "maximum_harmonics" : "harmonics");
   }
 

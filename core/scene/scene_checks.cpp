@@ -81,7 +81,7 @@ void checkDimension(const Json& scene) {
 void checkStudies(const Json& scene) {
   for (std::size_t i = 0; i < scene["studies"].size(); ++i) {
     const Json& study = scene["studies"][i];
-    const int harmonics = study["harmonics"], samples = study["samples"];
+    const int harmonics = study.value("harmonics", 0), samples = study.value("samples", 1);
     if (samples < 2 * harmonics + 1)
       throw InputError(at("studies", i) + "/samples", "Expected at least " + std::to_string(2 * harmonics + 1) +
                                                           " samples for " + std::to_string(harmonics) +

@@ -28,7 +28,7 @@ struct Provenance {
 class Result {
  public:
   virtual ~Result() = default;
-  /// "harmonic": which views can show it.
+  /// "harmonic", "modes": which views can show it.
   virtual std::string kind() const = 0;
   /// Every scalar that a person would quote (summary.json).
   virtual Json summary() const = 0;
@@ -120,7 +120,7 @@ class Study {
 using StudyFactory =
     std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>, const Json& options)>;
 
-/// Kinds of studies by "type": "periodic_motion", "frequency_response".
+/// Kinds of studies by "type": "periodic_motion", "frequency_response", "linear_modes".
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();

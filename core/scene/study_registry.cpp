@@ -1,13 +1,16 @@
 #include "core/base/error.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/linear_studies.hpp"
 #include "core/scene/study.hpp"
 #include "core/scene/study_specs.hpp"
 
 namespace pliant::scene {
 
 StudyRegistry::StudyRegistry()
-    : factories_{{"periodic_motion", makePeriodicMotionStudy}, {"frequency_response", makeFrequencyResponseStudy}} {}
+    : factories_{{"periodic_motion", makePeriodicMotionStudy},
+                 {"frequency_response", makeFrequencyResponseStudy},
+                 {"linear_modes", makeLinearModesStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;

@@ -68,7 +68,10 @@ const std::vector<ParameterSpec>& studySpecs() {
            withDefault(
                positive(number("location_tolerance", "",
                                "Relative error of the frequency of folds, peaks and bifurcations.", dimensions::none)),
-               1e-6)})};
+               1e-6)}),
+      object("linear_modes",
+             "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
+             {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)})};
   return specs;
 }
 

@@ -131,8 +131,16 @@ class Defaults {
         to = other.at("to");
       }
     }
-    if (type == "periodic_motion") return {{"frequency", at}};
-    return {{"from", from}, {"to", to}};
+    Json entry = Json::object();
+    const ParameterSpec* spec = listSpec("studies");
+    for (const ParameterSpec& kind : spec->items.front().items)
+      if (kind.key == type)
+        for (const ParameterSpec& field : kind.fields) {
+          if (field.key == "frequency") entry["frequency"] = at;
+          if (field.key == "from") entry["from"] = from;
+          if (field.key == "to") entry["to"] = to;
+        }
+    return entry;
   }
 
   const Json& scene_;
@@ -167,6 +175,7 @@ std::string nameOf(const std::string& list, const std::string& type) {
   if (type == "harmonic_force") return "force";
   if (type == "periodic_motion") return "motion";
   if (type == "frequency_response") return "response";
+  if (type == "linear_modes") return "modes";
   return type;
 }
 

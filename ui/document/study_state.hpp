@@ -15,7 +15,7 @@ enum class StudyStatus { none, waiting, running, solved, stale, cancelled, faile
 /// One study of the scene with what has been computed of it.
 struct StudyState {
   std::string name;
-  std::string type;  ///< "periodic_motion", "frequency_response"
+  std::string type;  ///< "type" of the study, such as "periodic_motion"
   StudyStatus status = StudyStatus::none;
   /// Whether the scene says something else by now than when `result` was computed.
   bool stale = false;
