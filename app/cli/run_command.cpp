@@ -109,6 +109,33 @@ void printModes(const Json& summary) {
   }
 }
 
+void printTime(const Json& summary) {
+  std::cout << "  " << summary["period_count"] << " periods of " << summary["steps_per_period"] << " steps, "
+            << summary["newton_iterations"] << " Newton iterations, " << summary["factorizations"]
+            << " factorisations\n  last periods differ by e_p = " << length(summary["difference"]) << "\n  at "
+            << frequency(summary) << "\n";
+  printProbes(summary["probes"]);
+}
+
+void printCompared(const char* title, const Json& solutions) {
+  std::cout << title << "  to Newmark  to reference   seconds\n";
+  for (const Json& solution : solutions) {
+    char line[96];
+    std::snprintf(line, sizeof line, "  %9d  %7d  %10.2e  %12.2e  %8.3g\n", solution.value("harmonics", 0),
+                  solution.contains("steps") ? solution["steps"].get<int>() : solution["samples"].get<int>(),
+                  solution["relative_difference_to_newmark"].get<double>(),
+                  solution["relative_difference_to_reference"].get<double>(), solution["seconds"].get<double>());
+    std::cout << line;
+  }
+}
+
+void printComparison(const Json& summary) {
+  std::cout << "  at " << frequency(summary) << ", differences relative to the swing\n";
+  printCompared("  harmonics  samples", summary["harmonics"]);
+  printCompared("  (Newmark)    steps", summary["steps"]);
+  printCompared("  harmonics   both N", summary["samples"]);
+}
+
 void printSummary(const Json& summary) {
   std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
             << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
@@ -117,6 +144,8 @@ void printSummary(const Json& summary) {
   const std::string kind = summary["kind"];
   if (kind == "harmonic") printHarmonic(summary);
   if (kind == "modes") printModes(summary);
+  if (kind == "time") printTime(summary);
+  if (kind == "comparison") printComparison(summary);
 }
 
 void printExpected(const std::vector<scene::ExpectedValue>& values) {

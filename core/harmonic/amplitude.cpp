@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/mechanics/strain.hpp"
+
 namespace pliant::harmonic {
 
 namespace {
@@ -164,6 +166,22 @@ Vector pathLengthGradient(const HarmonicBalanceProblem& problem, const Vector& z
     if (f >= 0) gradient.segment(f * width, width) = byPosition.col(axis);
   }
   return gradient;
+}
+
+double largestStrain(const HarmonicBalanceProblem& problem, const Vector& z) {
+  const Model& model = problem.model();
+  mechanics::Triangles triangles;
+  for (const mechanics::DisplayPart& part : model.parts)
+    triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+  if (triangles.empty()) return 0;
+  double largest = 0;
+  const Matrix positions = problem.trajectories(z);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    largest = std::max(largest, mechanics::principalStretches(
+                                    model.dimension, model.restPositions, positions.row(i).transpose(), triangles)
+                                        .maxCoeff() -
+                                    1);
+  return largest;
 }
 
 }  // namespace pliant::harmonic

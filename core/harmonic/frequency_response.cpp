@@ -7,12 +7,16 @@
 
 namespace pliant::harmonic {
 
+void requireFrequencyRange(double from, double to) {
+  if (!(std::isfinite(from) && std::isfinite(to) && from > 0 && to > 0))
+    throw base::InputError("", "the frequencies of a response curve must be finite and above 0");
+  if (from == to) throw base::InputError("", "the frequency range of a response curve is empty");
+}
+
 FrequencyResponse traceFrequencyResponse(HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
                                          base::ExecutionContext& context,
                                          const std::function<void(const ResponsePoint&)>& onPoint) {
-  if (!(std::isfinite(options.from) && std::isfinite(options.to) && options.from > 0 && options.to > 0))
-    throw base::InputError("", "the frequencies of a response curve must be finite and above 0");
-  if (options.from == options.to) throw base::InputError("", "the frequency range of a response curve is empty");
+  requireFrequencyRange(options.from, options.to);
   const PeriodicMotion start = solvePeriodicMotion(problem, options.from, options.newton, context, options.start);
   FrequencyResponse response;
   if (start.report.converged()) {

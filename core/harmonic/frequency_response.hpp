@@ -29,6 +29,9 @@ struct FrequencyResponse {
   base::SolverReport report;          ///< one record a point
 };
 
+/// Throws base::InputError if a frequency is not finite and positive or the range is empty.
+void requireFrequencyRange(double from, double to);
+
 /// Pseudo-arclength continuation (2.3.18, 2.3.19) with step control, through folds, until the curve leaves the range;
 /// the last point lies exactly on the range's end. Folds (dω/ds = 0) and resonance peaks of every probe's path length
 /// (dA/ds changes from positive to negative) are located and stand among the points. A model without probes has the

@@ -106,8 +106,8 @@ Vector ElasticAssembler::gradient(const Vector& x) const {
   return sum;
 }
 
-SparseMatrix ElasticAssembler::hessian(const Vector& x) const {
-  std::vector<double> entries(entryCount(), 0.0);
+void ElasticAssembler::hessianEntries(const Vector& x, Vector& entries) const {
+  entries.setZero(entryCount());
   EvaluationBlock<double> block;
   block.x = x.data();
   block.hessian = entries.data();
@@ -115,6 +115,11 @@ SparseMatrix ElasticAssembler::hessian(const Vector& x) const {
     block.entries = entries_[i].data();
     model_->energies[i]->accumulate(block);
   }
+}
+
+SparseMatrix ElasticAssembler::hessian(const Vector& x) const {
+  Vector entries;
+  hessianEntries(x, entries);
   std::vector<Eigen::Triplet<double>> triplets;
   for (int s = 0; s < entryCount(); ++s) {
     triplets.emplace_back(rows_[s], columns_[s], entries[s]);

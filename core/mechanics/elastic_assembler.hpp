@@ -39,6 +39,8 @@ class ElasticAssembler {
   double value(const Vector& x) const;
   Vector gradient(const Vector& x) const;
   SparseMatrix hessian(const Vector& x) const;
+  /// The same Hessian as the values of its entries, in the order of rows() and columns().
+  void hessianEntries(const Vector& x, Vector& entries) const;
 
  private:
   std::shared_ptr<const Model> model_;

@@ -49,9 +49,14 @@ void addStability(const harmonic::Stability& stability, Json& json) {
   json["multipliers"] = multipliers;
 }
 
+void addStrain(const HarmonicResult& result, const ResponsePoint& point, Json& json) {
+  if (result.hasTriangles()) json["largest_strain"] = harmonic::largestStrain(*result.problemOf(point), point.z);
+}
+
 Json peakEntry(const HarmonicResult& result, const ResponsePoint& point) {
   Json entry;
   addFrequency(entry, point.omega);
+  addStrain(result, point, entry);
   if (point.branch > 0) entry["branch"] = point.branch;
   if (point.probe < 0) return entry;
   entry["probe"] = result.problem->model().probes[static_cast<std::size_t>(point.probe)].name;
@@ -64,11 +69,13 @@ Json peakEntry(const HarmonicResult& result, const ResponsePoint& point) {
 Json bifurcationEntry(const HarmonicResult& result, const ResponsePoint& point) {
   Json entry{{"kind", nameOf(point.kind)}, {"branch", point.branch}};
   addFrequency(entry, point.omega);
+  addStrain(result, point, entry);
   entry["probes"] = probesAt(result, point);
   if (const auto critical = harmonic::criticalMultiplier(point); critical != 0.0)
     entry["multiplier"] = {critical.real(), critical.imag()};
   return entry;
 }
+
 
 void addCurve(const HarmonicResult& result, Json& json) {
   Json folds = Json::array(), peaks = Json::array(), bifurcations = Json::array();
@@ -90,6 +97,7 @@ void addCurve(const HarmonicResult& result, Json& json) {
     if (point.kind == PointKind::fold) {
       Json entry;
       addFrequency(entry, point.omega);
+      addStrain(result, point, entry);
       entry["probes"] = probesAt(result, point);
       folds.push_back(entry);
     }
@@ -119,6 +127,7 @@ void addMotion(const HarmonicResult& result, Json& json) {
     if (result.sensitivity && result.sensitivity->regular()) addSensitivities(result, probes);
     json["probes"] = probes;
     addStability(result.points.front().stability, json);
+    addStrain(result, result.points.front(), json);
   }
   json["residual"] = result.report.residual();
   json["correction"] = result.report.correction();
@@ -152,6 +161,11 @@ void HarmonicResult::addProblemOf(const ResponsePoint& point) {
       std::make_shared<const harmonic::HarmonicBalanceProblem>(problem->withDrivePeriods(point.drivePeriods));
 }
 
+bool HarmonicResult::hasTriangles() const {
+  const auto& parts = problem->model().parts;
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.triangles.empty(); });
+}
+
 Json HarmonicResult::summary() const {
   const auto& model = problem->model();
   Json json = summaryHead(*this);
@@ -170,6 +184,7 @@ Json HarmonicResult::summary() const {
                    {"frequency_hz", "Hz"},
                    {"path_length", "m"},
                    {"maximum_displacement", "m"},
+                   {"largest_strain", "largest principal stretch in the plane of any triangle over a period, minus 1"},
                    {"path_length_derivative", "m per unit of the parameter"},
                    {"residual", "relative to the driving force"},
                    {"correction", "relative to the swing"},

@@ -39,7 +39,9 @@ std::string responseTable(const HarmonicResult& result) {
   csv.add("stability").add("unstable multipliers").add("critical multiplier").add("critical multiplier, imaginary");
   for (const auto& probe : model.probes)
     csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
-  csv.add("newton iterations").endRow();
+  csv.add("newton iterations");
+  if (result.hasTriangles()) csv.add("largest strain");
+  csv.endRow();
   int index = 0;
   for (const ResponsePoint& point : result.points) {
     csv.add(index++).add(nameOf(point.kind));
@@ -50,7 +52,9 @@ std::string responseTable(const HarmonicResult& result) {
     const std::complex<double> critical = harmonic::criticalMultiplier(point);
     csv.add(critical.real()).add(critical.imag());
     for (const auto& amplitude : point.amplitudes) csv.add(amplitude.pathLength).add(amplitude.maximumDisplacement);
-    csv.add(point.newtonIterations).endRow();
+    csv.add(point.newtonIterations);
+    if (result.hasTriangles()) csv.add(harmonic::largestStrain(*result.problem, point.z));
+    csv.endRow();
   }
   return csv.text();
 }
@@ -168,7 +172,8 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
   if (values.size() != rows.size() * freeCount) otherScene();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
-    if (row.size() != columnsBeforeProbes + 2 * probeCount + 1) otherScene();
+    const std::size_t iterationsColumn = columnsBeforeProbes + 2 * probeCount;
+    if (row.size() != iterationsColumn + 1 + (result.hasTriangles() ? 1 : 0)) otherScene();
     ResponsePoint point;
     point.kind = pointKindOf(row[1]);
     for (std::size_t p = 0; p < probeCount; ++p)
@@ -189,7 +194,7 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     for (std::size_t p = 0; p < probeCount; ++p)
       point.amplitudes.push_back(
           {csvNumber(row[columnsBeforeProbes + 2 * p]), csvNumber(row[columnsBeforeProbes + 2 * p + 1])});
-    point.newtonIterations = csvInteger(row.back());
+    point.newtonIterations = csvInteger(row[iterationsColumn]);
     point.z.resize(static_cast<Eigen::Index>(count * freeCount));
     for (std::size_t free = 0; free < freeCount; ++free) {
       const auto& cells = values[i * freeCount + free];
@@ -212,7 +217,8 @@ base::TerminationType terminationOf(const std::string& text) {
 }
 
 void readSummary(HarmonicResult& result, const Json& summary) {
-  result.isCurve = summary.at("type") == "frequency_response";
+  result.isLinear = summary.at("type") == "linear_response";
+  result.isCurve = result.isLinear || summary.at("type") == "frequency_response";
   result.termination = terminationOf(summary.at("termination"));
   result.message = summary.at("message");
   result.seconds = summary.at("seconds");

@@ -19,7 +19,8 @@ class HarmonicStudy : public Study {
  public:
   HarmonicStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
       : model_(std::move(model)), options_(options), provenance_(provenanceOf(scene, options)) {
-    requireModestSize(scene, options.contains("harmonics_tolerance") ? "maximum_harmonics" : "harmonics");
+    const char* key = options.contains("harmonics_tolerance") ? "maximum_harmonics" : "harmonics";
+    requireModestSize(scene, model_, name(), key, options[key]);
   }
 
   std::string name() const override { return options_["name"]; }
@@ -57,20 +58,6 @@ class HarmonicStudy : public Study {
   Json options_;
 
  private:
-  void requireModestSize(const Scene& scene, const char* key) const {
-    const mechanics::ElasticAssembler assembler(model_);
-    const double size = 2.0 * options_[key].get<int>() + 1;
-    const double entries = size * size * (2.0 * assembler.entryCount() + model_->dofs.freeCount());
-    if (entries <= mostJacobianEntries) return;
-    const auto names = studyNames(scene);
-    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name()) - names.begin());
-    throw InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + key,
-                     options_[key].dump() + " harmonics are too many for a model with " +
-                         std::to_string(model_->dofs.freeCount()) + " free coordinates: the system would have " +
-                         std::to_string(static_cast<long long>(entries / 1e6)) + " million entries, and " +
-                         std::to_string(static_cast<long long>(mostJacobianEntries / 1e6)) + " are allowed.");
-  }
-
   Provenance provenance_;
 };
 
@@ -164,6 +151,21 @@ class FrequencyResponseStudy final : public HarmonicStudy {
 };
 
 }  // namespace
+
+void requireModestSize(const Scene& scene, const std::shared_ptr<const mechanics::Model>& model,
+                       const std::string& study, const std::string& key, int harmonics) {
+  const mechanics::ElasticAssembler assembler(model);
+  const double size = 2.0 * harmonics + 1;
+  const double entries = size * size * (2.0 * assembler.entryCount() + model->dofs.freeCount());
+  if (entries <= mostJacobianEntries) return;
+  const auto names = studyNames(scene);
+  const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), study) - names.begin());
+  throw InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + key,
+                   std::to_string(harmonics) + " harmonics are too many for a model with " +
+                       std::to_string(model->dofs.freeCount()) + " free coordinates: the system would have " +
+                       std::to_string(static_cast<long long>(entries / 1e6)) + " million entries, and " +
+                       std::to_string(static_cast<long long>(mostJacobianEntries / 1e6)) + " are allowed.");
+}
 
 std::unique_ptr<Study> makePeriodicMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                                const Json& options) {

@@ -4,6 +4,10 @@
 
 namespace pliant::scene {
 
+/// Throws base::InputError at the key of the study if this number of harmonics makes a system too large for the model.
+void requireModestSize(const Scene& scene, const std::shared_ptr<const mechanics::Model>& model,
+                       const std::string& study, const std::string& key, int harmonics);
+
 /// Factories of the studies whose options stand in study_specs.cpp. Both throw base::InputError if the number of
 /// harmonics makes a system too large for this model.
 std::unique_ptr<Study> makePeriodicMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,

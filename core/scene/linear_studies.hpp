@@ -8,5 +8,7 @@ namespace pliant::scene {
 /// study_specs.cpp.
 std::unique_ptr<Study> makeLinearModesStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                             const Json& options);
+std::unique_ptr<Study> makeLinearResponseStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                               const Json& options);
 
 }  // namespace pliant::scene

@@ -30,6 +30,10 @@ ParameterSpec integer(std::string key, std::string symbol, std::string descripti
   return within(std::move(spec), minimum, maximum);
 }
 
+ParameterSpec boolean(std::string key, std::string description) {
+  return make(std::move(key), std::move(description), ValueKind::boolean);
+}
+
 ParameterSpec text(std::string key, std::string description) {
   return make(std::move(key), std::move(description), ValueKind::text);
 }

@@ -14,6 +14,7 @@ using base::ParameterSpec;
 
 ParameterSpec number(std::string key, std::string symbol, std::string description, Dimension dimension);
 ParameterSpec integer(std::string key, std::string symbol, std::string description, int minimum, int maximum);
+ParameterSpec boolean(std::string key, std::string description);
 ParameterSpec text(std::string key, std::string description);
 ParameterSpec name();
 ParameterSpec reference(std::string key, std::string description, std::string target);

@@ -28,7 +28,7 @@ struct Provenance {
 class Result {
  public:
   virtual ~Result() = default;
-  /// "harmonic", "modes": which views can show it.
+  /// "harmonic", "modes", "time", "comparison": which views can show it.
   virtual std::string kind() const = 0;
   /// Every scalar that a person would quote (summary.json).
   virtual Json summary() const = 0;
@@ -90,12 +90,15 @@ class HarmonicResult final : public Result {
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problemOf(const harmonic::ResponsePoint& point) const;
   /// Makes problemOf(point) if it is not there yet.
   void addProblemOf(const harmonic::ResponsePoint& point);
+  /// Whether strains can be told.
+  bool hasTriangles() const;
 
   std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem;
   ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
-  bool isCurve = false;                                              ///< true for a frequency_response
+  bool isCurve = false;   ///< true for a frequency_response or a linear_response
+  bool isLinear = false;  ///< the points solve the linearised model, not h(z, ω) = 0
 
  private:
   std::map<int, std::shared_ptr<const harmonic::HarmonicBalanceProblem>> subharmonicProblems_;  ///< by drive periods
@@ -120,7 +123,8 @@ class Study {
 using StudyFactory =
     std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>, const Json& options)>;
 
-/// Kinds of studies by "type": "periodic_motion", "frequency_response", "linear_modes".
+/// Kinds of studies by "type": "periodic_motion", "frequency_response", "linear_modes", "linear_response",
+/// "time_integration", "comparison".
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();

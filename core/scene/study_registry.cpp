@@ -4,13 +4,14 @@
 #include "core/scene/linear_studies.hpp"
 #include "core/scene/study.hpp"
 #include "core/scene/study_specs.hpp"
+#include "core/scene/time_studies.hpp"
 
 namespace pliant::scene {
 
 StudyRegistry::StudyRegistry()
-    : factories_{{"periodic_motion", makePeriodicMotionStudy},
-                 {"frequency_response", makeFrequencyResponseStudy},
-                 {"linear_modes", makeLinearModesStudy}} {}
+    : factories_{{"periodic_motion", makePeriodicMotionStudy},   {"frequency_response", makeFrequencyResponseStudy},
+                 {"linear_modes", makeLinearModesStudy},         {"linear_response", makeLinearResponseStudy},
+                 {"time_integration", makeTimeIntegrationStudy}, {"comparison", makeComparisonStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;

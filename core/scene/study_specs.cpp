@@ -12,14 +12,40 @@ ParameterSpec frequency(std::string key, std::string symbol, std::string descrip
   return positive(number(std::move(key), std::move(symbol), std::move(description), dimensions::angularFrequency));
 }
 
+ParameterSpec harmonics() { return withDefault(integer("harmonics", "H", "Harmonics of the motion.", 1, 200), 5); }
+
+ParameterSpec samples() {
+  return withDefault(
+      integer("samples", "N", "Samples of a period at which forces are evaluated; at least 2 H + 1.", 3, 8192), 64);
+}
+
+ParameterSpec from() { return frequency("from", "ω_1", "Where the curve starts."); }
+ParameterSpec to() { return frequency("to", "ω_2", "Where it ends; may be below \"from\"."); }
+
+ParameterSpec locationTolerance(std::string description) {
+  return withDefault(positive(number("location_tolerance", "", std::move(description), dimensions::none)), 1e-6);
+}
+
+ParameterSpec maximumPeriods() {
+  return withDefault(
+      integer("maximum_periods", "", "Periods after which the integration gives up.", 2, 1'000'000), 1000);
+}
+
+ParameterSpec periodTolerance() {
+  return withDefault(positive(number("tolerance", "",
+                                     "Difference between successive periods, e_p per time step, relative to the swing, "
+                                     "at which the motion counts as periodic.",
+                                     dimensions::none)),
+                     1e-7);
+}
+
 /// `own` keys between the study's name and the options that every harmonic-balance study has.
 ParameterSpec harmonicStudy(std::string type, std::string description, std::vector<ParameterSpec> own,
                             std::vector<ParameterSpec> last) {
   std::vector<ParameterSpec> keys{name()};
   keys.insert(keys.end(), own.begin(), own.end());
-  keys.push_back(withDefault(integer("harmonics", "H", "Harmonics of the motion.", 1, 200), 5));
-  keys.push_back(withDefault(
-      integer("samples", "N", "Samples of a period at which forces are evaluated; at least 2 H + 1.", 3, 8192), 64));
+  keys.push_back(harmonics());
+  keys.push_back(samples());
   keys.push_back(withDefault(
       positive(
           number("tolerance", "",
@@ -57,21 +83,50 @@ const std::vector<ParameterSpec>& studySpecs() {
                                 "of its length.",
                                 dimensions::none))),
                      withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)}),
-      harmonicStudy(
-          "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
-          {frequency("from", "ω_1", "Where the curve starts."),
-           frequency("to", "ω_2", "Where it ends; may be below \"from\".")},
-          {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
-           step("minimum_step", "Smallest step before giving up; chosen if left out."),
-           step("maximum_step", "Largest step; chosen if left out."),
-           withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
-           withDefault(
-               positive(number("location_tolerance", "",
-                               "Relative error of the frequency of folds, peaks and bifurcations.", dimensions::none)),
-               1e-6)}),
+      harmonicStudy("frequency_response",
+                    "The curve of all periodic motions between two driving frequencies, through folds.", {from(), to()},
+                    {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
+                     step("minimum_step", "Smallest step before giving up; chosen if left out."),
+                     step("maximum_step", "Largest step; chosen if left out."),
+                     withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
+                     locationTolerance("Relative error of the frequency of folds, peaks and bifurcations.")}),
       object("linear_modes",
              "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
-             {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)})};
+             {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),
+      object(
+          "linear_response",
+          "The response curve of the model linearised about its static equilibrium: what linear modal analysis with "
+          "all modes gives.",
+          {name(), from(), to(),
+           withDefault(integer("points", "", "Points spread evenly; more are put around resonances.", 2, 100'000), 200),
+           harmonics(), samples(), locationTolerance("Relative error of the frequency of peaks.")}),
+      object("time_integration",
+             "Newmark's method (trapezoidal rule) from the static equilibrium until two successive periods agree.",
+             {name(), frequency("frequency", "ω", "Driving frequency."),
+              withDefault(integer("steps_per_period", "N", "Time steps of a period.", 8, 100'000), 256),
+              maximumPeriods(), periodTolerance(),
+              withDefault(boolean("extrapolate",
+                                  "Extrapolate the start of the next period from the ones before, so that transients "
+                                  "need not die away; unstable motions are found as well."),
+                          false)}),
+      object(
+          "comparison",
+          "Harmonic balance against Newmark's method at one frequency: how the difference falls with harmonics, "
+          "samples and steps.",
+          {name(), frequency("frequency", "ω", "Driving frequency."),
+           withDefault(list("harmonic_counts", "Harmonic balance with each of these numbers of harmonics; ascending.",
+                            integer("", "H", "Harmonics.", 1, 200), 1, 100),
+                       base::Json{1, 2, 3, 5, 7, 9}),
+           samples(),
+           withDefault(list("steps_per_period",
+                            "Newmark's method with each of these numbers of steps; ascending multiples of the first.",
+                            integer("", "N", "Time steps of a period.", 8, 100'000), 1, 100),
+                       base::Json{64, 128, 256, 512}),
+           withDefault(
+               integer("harmonics", "H",
+                       "Harmonics of the solutions that have as many samples as Newmark's method has steps.", 1, 200),
+               5),
+           maximumPeriods(), periodTolerance()})};
   return specs;
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 const QString amplitudeTopic = QStringLiteral("amplitudes");
 
-bool isCurve(const document::StudyState& study) { return study.type == "frequency_response"; }
+bool isCurve(const document::StudyState& study) { return study.type.ends_with("_response"); }
 
 double probeAmplitude(const harmonic::ResponsePoint& point, std::size_t probe, AmplitudeMeasure measure) {
   if (probe >= point.amplitudes.size()) return 0;

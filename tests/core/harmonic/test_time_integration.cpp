@@ -1,91 +1,57 @@
-#include <Eigen/SparseLU>
 #include <QtTest>
+#include <complex>
 
-#include "core/harmonic/periodic_motion.hpp"
+#include "core/base/error.hpp"
+#include "core/harmonic/method_comparison.hpp"
 #include "tests/core/harmonic/example_models.hpp"
 
 using namespace pliant;
 using namespace pliant::test;
 using harmonic::HarmonicBalanceProblem;
 using harmonic::PeriodicMotion;
+using harmonic::TimeIntegration;
+using Complex = std::complex<double>;
 
 namespace {
 
-/// The trapezoidal rule on d/dt (M v + D_β ∇E(x)) = f - ∇E(x) - D_α M v, which is Newmark's method with β = 1/4 and
-/// γ = 1/2 (thesis 2.A.3) where D_β = 0, and needs no derivative of the tangent damping otherwise.
-class TimeIntegration {
- public:
-  TimeIntegration(std::shared_ptr<const Model> model, double omega, double step)
-      : model_(model), assembler_(model), mass_(model->massMatrix()), omega_(omega), step_(step) {}
+constexpr double pi = std::numbers::pi;
 
-  void start(const Vector& positions, const Vector& velocities) {
-    time_ = 0;
-    x_ = positions;
-    v_ = velocities;
+/// A mass on a spring to a shaken plate, on a line, with both kinds of damping, pushed.
+struct ShakenMass {
+  double stiffness = 30, mass = 0.4, massDamping = 0.5, stiffnessDamping = 0.02;
+
+  std::shared_ptr<const Model> model() const {
+    auto model = std::make_shared<Model>();
+    model->dimension = 1;
+    model->restPositions = vector2(0, 1);
+    model->energies = {mechanics::makeSpring(1, 0, 1, 1, {{stiffness}})};
+    addPointMass(*model, "mass", {1}, mass);
+    model->massDamping = massDamping;
+    model->stiffnessDamping = stiffnessDamping;
+    model->drives = {mechanics::makeTranslation({0}, Vector::Ones(1), {{{1, 0.05, 0.3}}})};
+    model->forces = {{"push", {1}, Vector::Ones(1), {{{2, 0.7, 0.2}}}}};
+    model->probes = {{"mass", 1}};
+    model->finish();
+    return model;
   }
-
-  const Vector& positions() const { return x_; }
-
-  void advance() {
-    const auto& free = model_->dofs.freeCoordinates;
-    const Model& m = *model_;
-    const double next = time_ + step_;
-    const Vector forceNow = unbalanced(x_, v_, time_);
-    const Vector elasticNow = assembler_.gradient(x_);
-    const Vector velocityNow = v_;
-    Vector x1 = m.configuration((x_ + step_ * v_)(free), omega_ * next);
-    const Vector base = x_;
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      Vector v1 = prescribedVelocity(next);
-      v1(free) = (2 / step_ * (x1 - base) - velocityNow)(free);
-      const Vector r = (mass_ * (v1 - velocityNow) + m.stiffnessDamping * (assembler_.gradient(x1) - elasticNow) -
-                        0.5 * step_ * (forceNow + unbalanced(x1, v1, next)))(free);
-      const SparseMatrix k = assembler_.hessian(x1);
-      const SparseMatrix jacobian = freeBlock() * (2 / step_ + m.massDamping) + k * (m.stiffnessDamping + 0.5 * step_);
-      Eigen::SparseLU<SparseMatrix> lu(jacobian);
-      const Vector change = lu.solve(r);
-      Vector moved = x1(free) - change;
-      x1 = m.configuration(moved, omega_ * next);
-      v_ = v1;
-      if (change.norm() < 1e-13) break;
+  /// The steady motion of the trapezoidal rule with step Δt: that of the equation itself where every d/dt has become
+  /// 2i/Δt tan(kωΔt/2), which the rule makes of exp(ikωt).
+  double position(double omega, int steps, double tau) const {
+    double x = 1;
+    for (const int k : {1, 2}) {
+      const double duration = 2 * pi / (omega * steps);
+      const Complex rate(0, 2 / duration * std::tan(0.5 * k * omega * duration));
+      const Complex spring = stiffness * (1.0 + stiffnessDamping * rate);
+      const Complex load = k == 1 ? spring * std::polar(0.05, 0.3) : std::polar(0.7, 0.2);
+      x += std::real(load / (mass * rate * (rate + massDamping) + spring) * std::polar(1.0, k * tau));
     }
-    x_ = x1;
-    v_ = prescribedVelocity(next);
-    v_(free) = (2 / step_ * (x1 - base) - velocityNow)(free);
-    time_ = next;
+    return x;
   }
-
- private:
-  Vector unbalanced(const Vector& x, const Vector& v, double t) const {
-    return model_->externalForce(omega_ * t) - assembler_.gradient(x) - model_->massDamping * (mass_ * v);
-  }
-  Vector prescribedVelocity(double t) const {
-    const Vector any = Vector::Zero(model_->dofs.freeCount());
-    const double h = 1e-3;
-    const auto at = [&](double steps) { return model_->configuration(any, omega_ * t + steps * h); };
-    return omega_ * (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
-  }
-  SparseMatrix freeBlock() const {
-    const auto& free = model_->dofs.freeCoordinates;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t f = 0; f < free.size(); ++f)
-      for (SparseMatrix::InnerIterator it(mass_, free[f]); it; ++it)
-        if (model_->dofs.freeIndex[it.row()] >= 0)
-          entries.emplace_back(model_->dofs.freeIndex[it.row()], static_cast<int>(f), it.value());
-    SparseMatrix block(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(free.size()));
-    block.setFromTriplets(entries.begin(), entries.end());
-    return block;
-  }
-
-  std::shared_ptr<const Model> model_;
-  mechanics::ElasticAssembler assembler_;
-  SparseMatrix mass_;
-  double omega_;
-  double step_;
-  double time_ = 0;
-  Vector x_;
-  Vector v_;
 };
+
+harmonic::TimeIntegrationOptions options(int steps, double tolerance, int acceleration = 0) {
+  return {steps, 3000, tolerance, acceleration};
+}
 
 std::shared_ptr<const Model> turnedStrip(mechanics::MassMatrix mass) {
   StripOptions options{4, 1, 1e7, 1e-3, mass, 0, true};
@@ -105,26 +71,105 @@ std::shared_ptr<const Model> turnedStrip(mechanics::MassMatrix mass) {
 
 }  // namespace
 
-/// Harmonic balance against time integration of the same model.
+/// Newmark's method against closed forms, and harmonic balance against Newmark's method.
 class TestTimeIntegration : public QObject {
   Q_OBJECT
 
  private slots:
-  void steadyMotionsAgree_data();
-  void steadyMotionsAgree();
+  void linearMotionIsThatOfTheRule();
+  void freeSwingKeepsItsEnergy();
+  void duffingAgreesWithHarmonicBalance();
+  void extrapolationFindsTheSameMotion();
+  void shellAgreesWithHarmonicBalance_data();
+  void shellAgreesWithHarmonicBalance();
+  void comparisonShowsBothErrors();
+  void endsWithAReason();
 };
 
-void TestTimeIntegration::steadyMotionsAgree_data() {
+void TestTimeIntegration::linearMotionIsThatOfTheRule() {
+  const ShakenMass system;
+  const HarmonicBalanceProblem problem(system.model(), {1, 16});
+  base::ExecutionContext context;
+  for (const int steps : {16, 64}) {
+    const TimeIntegration found = harmonic::integrateToPeriodicity(problem, 5, options(steps, 1e-12), context);
+    QVERIFY2(found.report.converged(), found.report.message.c_str());
+    for (int i = 0; i < steps; ++i) {
+      const double expected = system.position(5, steps, 2 * pi * i / steps);
+      QVERIFY2(std::abs(found.positions(i, 1) - expected) < 1e-10, qPrintable(QString::number(i)));
+      QVERIFY(std::abs(found.positions(i, 0) - 0.05 * std::cos(2 * pi * i / steps + 0.3)) < 1e-14);
+    }
+    QVERIFY(found.periods.size() > 3);
+    for (const harmonic::PeriodRecord& record : found.periods) QVERIFY(!record.extrapolated);
+    // Transients die like exp(-ζω₀t) from one period to the next.
+    const auto& p = found.periods;
+    QVERIFY(p[p.size() - 1].difference < p[p.size() - 2].difference);
+  }
+}
+
+/// The trapezoidal rule keeps ½ v² + ½ ω₀² x² of a linear oscillator, and turns it by 2 atan(ω₀ Δt/2) a step.
+void TestTimeIntegration::freeSwingKeepsItsEnergy() {
+  auto model = std::make_shared<Model>();
+  model->dimension = 1;
+  model->restPositions = Vector::Zero(1);
+  model->energies = {mechanics::makeGroundedSpring(1, 0, Vector::Zero(1), Vector::Ones(1), {{9}})};
+  addPointMass(*model, "mass", {0}, 1);
+  model->finish();
+  const HarmonicBalanceProblem problem(model, {1, 16});
+  harmonic::NewmarkIntegration newmark(problem, 3, 20);
+  newmark.start(Vector::Constant(1, 0.1), Vector::Zero(1));
+  const double turn = 2 * std::atan(0.5 * 2 * pi / 20);
+  for (int step = 1; step <= 1000; ++step) {
+    QVERIFY(newmark.advance());
+    QVERIFY(std::abs(newmark.positions()[0] - 0.1 * std::cos(step * turn)) < 1e-12 * step);
+    QVERIFY(std::abs(newmark.velocities()[0] + 0.3 * std::sin(step * turn)) < 1e-12 * step);
+  }
+  QVERIFY(newmark.factorizations() <= 2);
+}
+
+void TestTimeIntegration::duffingAgreesWithHarmonicBalance() {
+  HarmonicBalanceProblem problem(duffing(0.05, 0.8, 0.3), {21, 128});
+  base::ExecutionContext context;
+  const double omega = 0.8;
+  const PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context);
+  QVERIFY(motion.report.converged());
+  std::vector<double> errors;
+  for (const int steps : {64, 128, 256}) {
+    const TimeIntegration found =
+        harmonic::integrateToPeriodicity(problem, omega, options(steps, 1e-10), context, motion.z);
+    QVERIFY2(found.report.converged(), found.report.message.c_str());
+    double error = 0;
+    for (int i = 0; i < steps; ++i)
+      error =
+          std::max(error, std::abs(found.positions(i, 0) - problem.configurationAt(motion.z, 2 * pi * i / steps)[0]));
+    errors.push_back(error);
+  }
+  for (int i : {0, 1}) {
+    const double order = std::log2(errors[i] / errors[i + 1]);
+    QVERIFY2(order > 1.9 && order < 2.1, qPrintable(QString("%1 %2").arg(errors[i]).arg(errors[i + 1])));
+  }
+}
+
+void TestTimeIntegration::extrapolationFindsTheSameMotion() {
+  const HarmonicBalanceProblem problem(duffing(0.005, 0.8, 0.05), {1, 16});
+  base::ExecutionContext context;
+  const TimeIntegration plain = harmonic::integrateToPeriodicity(problem, 0.7, options(64, 1e-9), context);
+  const TimeIntegration quick = harmonic::integrateToPeriodicity(problem, 0.7, options(64, 1e-9, 10), context);
+  QVERIFY2(plain.report.converged() && quick.report.converged(), quick.report.message.c_str());
+  QVERIFY((plain.positions - quick.positions).cwiseAbs().maxCoeff() < 1e-6 * plain.swing);
+  QVERIFY2(3 * quick.periods.size() < plain.periods.size(), qPrintable(QString::number(quick.periods.size())));
+  QVERIFY(!quick.periods.back().extrapolated);
+}
+
+void TestTimeIntegration::shellAgreesWithHarmonicBalance_data() {
   QTest::addColumn<int>("mass");
   QTest::newRow("lumped") << static_cast<int>(mechanics::MassMatrix::lumped);
   QTest::newRow("consistent") << static_cast<int>(mechanics::MassMatrix::consistent);
 }
 
-void TestTimeIntegration::steadyMotionsAgree() {
+void TestTimeIntegration::shellAgreesWithHarmonicBalance() {
   QFETCH(int, mass);
   const auto model = turnedStrip(static_cast<mechanics::MassMatrix>(mass));
   const double omega = 14;
-  const double period = 2 * std::numbers::pi / omega;
   HarmonicBalanceProblem problem(model, {14, 96});
   base::ExecutionContext context;
   const PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context);
@@ -137,22 +182,56 @@ void TestTimeIntegration::steadyMotionsAgree() {
   // From rest until the transient has died away; the error of the rule is of second order in the step.
   std::vector<double> errors;
   for (const int steps : {128, 256}) {
-    TimeIntegration integration(model, omega, period / steps);
-    const Vector atRest = problem.configurationAt(problem.restCoefficients(), 0);
-    const Vector soon = problem.configurationAt(problem.restCoefficients(), 1e-4);
-    integration.start(atRest, omega * (soon - atRest) / 1e-4);
-    for (int i = 0; i < 14 * steps; ++i) integration.advance();
+    const TimeIntegration found = harmonic::integrateToPeriodicity(problem, omega, options(steps, 1e-6), context);
+    QVERIFY2(found.report.converged(), found.report.message.c_str());
     double error = 0;
     for (int i = 0; i < steps; ++i) {
-      const Vector expected = problem.configurationAt(motion.z, 2 * std::numbers::pi * i / steps);
-      error = std::max(error, (integration.positions() - expected).segment(3 * node, 3).norm());
-      integration.advance();
+      const Vector expected = problem.configurationAt(motion.z, 2 * pi * i / steps);
+      error = std::max(error, (found.positions.row(i).transpose() - expected).segment(3 * node, 3).norm());
     }
     errors.push_back(error / swing);
   }
   QVERIFY2(errors[0] < 1e-2, qPrintable(QString::number(errors[0])));
   const double order = std::log2(errors[0] / errors[1]);
   QVERIFY2(order > 1.8 && order < 2.2, qPrintable(QString("%1 %2").arg(errors[0]).arg(errors[1])));
+}
+
+/// Few harmonics are off by what they leave out, Newmark by the step squared; against the extrapolated reference both
+/// errors fall on and on.
+void TestTimeIntegration::comparisonShowsBothErrors() {
+  harmonic::MethodComparisonOptions comparison;
+  comparison.harmonics = {1, 3, 5, 7, 15};
+  comparison.steps = {64, 128, 256};
+  comparison.samplesHarmonics = 15;
+  comparison.integration = options(0, 1e-10, 10);
+  base::ExecutionContext context;
+  const harmonic::MethodComparison found = harmonic::compareMethods(duffing(0.05, 0.8, 0.3), 0.8, comparison, context);
+  QVERIFY2(found.report.converged(), found.report.message.c_str());
+  QCOMPARE(found.solutions.size(), std::size_t(5 + 3 + 3));
+  for (int i = 0; i + 1 < 4; ++i) QVERIFY(found.solutions[i + 1].toReference < 0.2 * found.solutions[i].toReference);
+  QVERIFY(found.solutions[4].toReference < 0.02 * found.solutions[7].toReference);
+  QVERIFY(found.solutions[4].toNewmark > 0.5 * found.solutions[7].toReference);  // the error of Newmark itself
+  for (const int first : {5, 8})
+    for (int i = first; i < first + 2; ++i) {
+      const double ratio = (first == 5 ? found.solutions[i].toReference : found.solutions[i].toNewmark) /
+                           (first == 5 ? found.solutions[i + 1].toReference : found.solutions[i + 1].toNewmark);
+      QVERIFY2(ratio > 3 && ratio < 4.5, qPrintable(QString("%1: %2").arg(i).arg(ratio)));
+    }
+}
+
+void TestTimeIntegration::endsWithAReason() {
+  const HarmonicBalanceProblem problem(duffing(0.005, 0.8, 0.05), {1, 16});
+  base::ExecutionContext context;
+  const TimeIntegration some =
+      harmonic::integrateToPeriodicity(problem, 0.7, {.stepsPerPeriod = 32, .maximumPeriods = 3}, context);
+  QVERIFY(some.report.termination == base::TerminationType::iterationLimit);
+  QCOMPARE(some.periods.size(), std::size_t(3));
+  QCOMPARE(some.positions.rows(), Eigen::Index(32));
+  QVERIFY_EXCEPTION_THROWN(
+      harmonic::integrateToPeriodicity(problem, 0.7, {.stepsPerPeriod = 4}, context), base::InputError);
+  context.requestCancel();
+  const TimeIntegration none = harmonic::integrateToPeriodicity(problem, 0.7, {}, context);
+  QVERIFY(none.report.termination == base::TerminationType::cancelled);
 }
 
 QTEST_GUILESS_MAIN(TestTimeIntegration)

@@ -28,7 +28,8 @@ const char* const twoMasses = R"({
   "loads": [{"name": "push", "type": "harmonic_force", "at": {"nodes": [0]}, "direction": [1],
              "harmonics": [{"amplitude": 0.3}]}],
   "probes": [{"name": "first", "at": {"nodes": [0]}}],
-  "studies": [{"name": "modes", "type": "linear_modes", "count": 2}]
+  "studies": [{"name": "modes", "type": "linear_modes", "count": 2},
+              {"name": "linear", "type": "linear_response", "from": 2, "to": 10, "points": 30}]
 })";
 
 std::shared_ptr<const scene::Result> run(const scene::Scene& scene, const std::string& study) {
@@ -82,6 +83,25 @@ class TestLinearStudies : public QObject {
     const std::filesystem::path place = folder.filePath("modes").toStdString();
     run(scene, "modes")->write(place);
     QVERIFY_EXCEPTION_THROWN(scene::HarmonicResult::read(scene, place), base::InputError);
+  }
+
+  /// Both modes are driven; with some 5 % of critical damping the peaks are within 2 % of the natural frequencies.
+  void linearResponseIsAHarmonicResult() {
+    const scene::Scene scene = test::parse(twoMasses);
+    const auto result = run(scene, "linear");
+    const Json summary = result->summary();
+    QCOMPARE(summary["type"].get<std::string>(), std::string("linear_response"));
+    QCOMPARE(summary["peak_count"].get<int>(), 2);
+    QVERIFY(std::abs(summary["peaks"][0]["frequency"].get<double>() - 4) < 0.08);
+    QVERIFY(std::abs(summary["peaks"][1]["frequency"].get<double>() - std::sqrt(48)) < 0.14);
+    const QTemporaryDir folder;
+    const std::filesystem::path place = folder.filePath("linear").toStdString();
+    result->write(place);
+    const auto back = scene::HarmonicResult::read(scene, place);
+    const auto& first = dynamic_cast<const scene::HarmonicResult&>(*result);
+    QVERIFY(back->isCurve && back->isLinear && first.isCurve && first.isLinear);
+    QCOMPARE(back->points.size(), first.points.size());
+    for (std::size_t i = 0; i < first.points.size(); ++i) QVERIFY(back->points[i].z == first.points[i].z);
   }
 };
 
