@@ -1,14 +1,20 @@
 #include "ui/panels/response_panel.hpp"
 
 #include <QComboBox>
+#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
+#include <QMessageBox>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <algorithm>
 
+#include "core/base/error.hpp"
 #include "ui/jobs/node_correspondence.hpp"
 #include "ui/panels/parameter_panel.hpp"
+#include "ui/panels/response_overlays.hpp"
+#include "ui/plots/plot_export.hpp"
 
 namespace pliant::panels {
 
@@ -56,8 +62,14 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
   unit_->setText(QStringLiteral("rad/s"));
   unit_->setMinimumWidth(64);
   unit_->setToolTip(tr("Frequency in rad/s or Hz"));
-  for (QWidget* widget : {static_cast<QWidget*>(studies_), static_cast<QWidget*>(nodes_),
-                          static_cast<QWidget*>(measures_), static_cast<QWidget*>(unit_)})
+  scale_ = new QToolButton;
+  scale_->setCheckable(true);
+  scale_->setText(tr("log"));
+  scale_->setToolTip(tr("Amplitudes on a logarithmic axis"));
+  QToolButton* menu = makeMenuButton();
+  for (QWidget* widget :
+       {static_cast<QWidget*>(studies_), static_cast<QWidget*>(nodes_), static_cast<QWidget*>(measures_),
+        static_cast<QWidget*>(unit_), static_cast<QWidget*>(scale_), static_cast<QWidget*>(menu)})
     widget->setFixedHeight(28);
   plot_ = new plots::ResponsePlot;
 
@@ -70,7 +82,9 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
   head->addWidget(new QLabel(tr("by")));
   head->addWidget(measures_);
   head->addStretch();
+  head->addWidget(scale_);
   head->addWidget(unit_);
+  head->addWidget(menu);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -86,6 +100,7 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
     setHertz(hertz);
     Q_EMIT hertzChanged(hertz);
   });
+  connect(scale_, &QToolButton::toggled, plot_, &plots::ResponsePlot::setLogarithmic);
   connect(plot_, &plots::ResponsePlot::pointChosen, this, [this](int index) { session_.showPoint(study_, index); });
   connect(plot_, &plots::ResponsePlot::frequencyRequested, this,
           [this](double omega, int nearest) { session_.solveAt(omega, study_, nearest); });
@@ -103,6 +118,7 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
     refreshMarkers();
   });
   connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
+    refreshOverlays();
     if (name != study_) return;
     refreshEmptyState();
     refreshCurve();
@@ -122,6 +138,55 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
   rebuild();
 }
 
+QToolButton* ResponsePanel::makeMenuButton() {
+  auto* button = new QToolButton;
+  button->setText(tr("Compare"));
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setToolTip(tr("Other studies and measurements in the same plot; export"));
+  auto* menu = new QMenu(button);
+  compare_ = menu->addAction(tr("Show other studies"));
+  compare_->setCheckable(true);
+  compare_->setChecked(true);
+  connect(compare_, &QAction::toggled, this, &ResponsePanel::refreshOverlays);
+  const auto choose = [this](auto&& act) {
+    try {
+      act();
+    } catch (const base::InputError& error) {
+      QMessageBox::warning(this, tr("Frequency response"), QString::fromUtf8(error.what()));
+    }
+  };
+  menu->addAction(tr("Import measurements…"), this, [this, choose] {
+    const QString file = QFileDialog::getOpenFileName(
+        this, tr("Measurements: frequency [Hz], amplitude [mm]"), {}, tr("Comma-separated values (*.csv)"));
+    if (!file.isEmpty()) choose([&] { addMeasurements(file); });
+  });
+  menu->addAction(tr("Remove measurements"), this, [this] {
+    measurements_.clear();
+    refreshOverlays();
+  });
+  menu->addSeparator();
+  menu->addAction(tr("Export plot…"), this, [this, choose] {
+    const QString file =
+        QFileDialog::getSaveFileName(this, tr("Export the plot"), {}, tr("PDF (*.pdf);;SVG (*.svg);;PNG (*.png)"));
+    if (!file.isEmpty()) choose([&] { plots::exportPlot(*plot_->plot(), file, {}); });
+  });
+  button->setMenu(menu);
+  return button;
+}
+
+void ResponsePanel::addMeasurements(const QString& file) {
+  measurements_.push_back(readMeasurements(file));
+  refreshOverlays();
+}
+
+void ResponsePanel::refreshOverlays() {
+  std::vector<plots::ResponseOverlay> overlays;
+  if (compare_->isChecked() && !document_.isEmpty())
+    overlays = studyOverlays(document_, study_, session_.node(), session_.measure());
+  overlays.insert(overlays.end(), measurements_.begin(), measurements_.end());
+  plot_->setOverlays(std::move(overlays));
+}
+
 void ResponsePanel::setHertz(bool hertz) {
   unit_->setChecked(hertz);
   unit_->setText(hertz ? QStringLiteral("Hz") : QStringLiteral("rad/s"));
@@ -130,6 +195,7 @@ void ResponsePanel::setHertz(bool hertz) {
 
 void ResponsePanel::rebuild() {
   drawn_.reset();
+  measurements_.clear();
   plot_->clear();
   studies_->clear();
   fillStudies();
@@ -186,6 +252,7 @@ void ResponsePanel::refreshCurve() {
   if (!study) return;  // none is left; `chooseStudy` has cleared the plot
   for (const auto& entry : document_.valueAt("/studies"))
     if (entry.value("name", "") == study_) plot_->setFrequencyRange(entry.value("from", 0.0), entry.value("to", 0.0));
+  refreshOverlays();
   const QString measure = session_.measure() == AmplitudeMeasure::pathLength ? tr("Path length") : tr("Displacement");
   plot_->setAmplitudeLabel(measure);
   const auto result = std::dynamic_pointer_cast<const scene::HarmonicResult>(study->result);
@@ -239,6 +306,8 @@ void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::v
       const bool others =
           point.kind == harmonic::PointKind::peak && point.probe >= 0 && point.probe != probeOf(model, node);
       selected.kinds.push_back(others ? harmonic::PointKind::regular : point.kind);
+      selected.unstable.push_back(point.stability.state == harmonic::StabilityState::unstable);
+      selected.branches.push_back(point.branch);
     }
     curves.push_back(selected);
     for (std::size_t probe = 0; probe < model.probes.size(); ++probe) {
@@ -246,6 +315,7 @@ void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::v
       ResponseCurve other;
       other.name = QString::fromStdString(model.probes[probe].name);
       other.omega = selected.omega;
+      other.branches = selected.branches;
       for (const auto& point : result->points)
         other.amplitude.push_back(probeAmplitude(point, probe, session_.measure()));
       curves.push_back(std::move(other));

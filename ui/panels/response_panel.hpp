@@ -7,6 +7,7 @@
 #include "ui/jobs/motion_session.hpp"
 #include "ui/plots/response_plot.hpp"
 
+class QAction;
 class QComboBox;
 class QToolButton;
 
@@ -25,6 +26,8 @@ class ResponsePanel final : public QWidget {
   /// The study whose curve is shown; empty if the scene has none.
   std::string study() const { return study_; }
   void setHertz(bool hertz);
+  /// Overlays measured amplitudes; see `readMeasurements`. Throws base::InputError.
+  void addMeasurements(const QString& file);
 
  Q_SIGNALS:
   void readoutChanged(const QString& text);
@@ -39,6 +42,8 @@ class ResponsePanel final : public QWidget {
   void showCurves(const scene::HarmonicResult* result, const std::vector<double>& amplitudes);
   void refreshMarkers();
   void refreshEmptyState();
+  void refreshOverlays();
+  QToolButton* makeMenuButton();
 
   document::Document& document_;
   jobs::MotionSession& session_;
@@ -49,6 +54,9 @@ class ResponsePanel final : public QWidget {
   QComboBox* nodes_;
   QComboBox* measures_;
   QToolButton* unit_;
+  QToolButton* scale_;
+  QAction* compare_;
+  std::vector<plots::ResponseOverlay> measurements_;
   plots::ResponsePlot* plot_;
 };
 

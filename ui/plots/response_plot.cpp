@@ -9,6 +9,10 @@
 
 namespace pliant::plots {
 
+namespace {
+constexpr double smallestOfLogarithmicAxis = 1e-9;  // of the largest amplitude
+}
+
 ResponsePlot::ResponsePlot(QWidget* parent) : QWidget(parent), parts_(std::make_unique<Parts>()) {
   build();
   applyStyle();
@@ -123,12 +127,47 @@ void ResponsePlot::enlargeToFit() {
   const bool rescale = unit.name != p.unit.name;
   p.unit = unit;
   if (!p.zoomed) {
-    p.plot->yAxis->setRange(0, p.top * unit.perMetre);
+    fitAmplitudes();
   } else if (rescale) {
     const QCPRange range = p.plot->yAxis->range();
     p.plot->yAxis->setRange(range.lower * change, range.upper * change);
   }
 }
+
+/// The range of amplitudes up to `top`; on a logarithmic axis from the smallest one.
+void ResponsePlot::fitAmplitudes() {
+  Parts& p = *parts_;
+  double bottom = 0;
+  if (p.logarithmic) {
+    bottom = p.top;
+    for (const ResponseCurve& curve : p.curves)
+      for (const double amplitude : curve.amplitude)
+        if (amplitude > p.top * smallestOfLogarithmicAxis) bottom = std::min(bottom, amplitude);
+    bottom /= 1.5;
+  }
+  p.plot->yAxis->setRange(bottom * p.unit.perMetre, p.top * p.unit.perMetre);
+}
+
+void ResponsePlot::setLogarithmic(bool logarithmic) {
+  Parts& p = *parts_;
+  if (p.logarithmic == logarithmic) return;
+  p.logarithmic = logarithmic;
+  p.plot->yAxis->setScaleType(logarithmic ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+  p.plot->yAxis->setTicker(logarithmic ? QSharedPointer<QCPAxisTicker>(new QCPAxisTickerLog)
+                                       : QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
+  p.plot->yAxis->ticker()->setTickCount(4);
+  fit();
+}
+
+QCustomPlot* ResponsePlot::plot() const { return parts_->plot; }
+
+void ResponsePlot::setOverlays(std::vector<ResponseOverlay> overlays) {
+  parts_->overlays = std::move(overlays);
+  redrawOverlays();
+  parts_->plot->replot(QCustomPlot::rpQueuedReplot);
+}
+
+const std::vector<ResponseOverlay>& ResponsePlot::overlays() const { return parts_->overlays; }
 
 void ResponsePlot::fit() {
   Parts& p = *parts_;

@@ -9,6 +9,7 @@
 #include "core/harmonic/frequency_response.hpp"
 #include "ui/document/study_state.hpp"
 
+class QCustomPlot;
 class QMouseEvent;
 
 namespace pliant::plots {
@@ -19,6 +20,16 @@ struct ResponseCurve {
   std::vector<double> omega;      ///< [rad/s]
   std::vector<double> amplitude;  ///< [m]
   std::vector<harmonic::PointKind> kinds;
+  std::vector<char> unstable;  ///< 1 where the motion is known to be unstable; empty: nothing is known
+  std::vector<int> branches;   ///< which branch each point is on; empty: one branch
+};
+
+/// A curve to compare with: of another study, or measured.
+struct ResponseOverlay {
+  QString name;
+  std::vector<double> omega;      ///< [rad/s]
+  std::vector<double> amplitude;  ///< [m]
+  bool dots = false;              ///< single motions rather than a curve
 };
 
 /// One motion in the plot.
@@ -46,6 +57,12 @@ class ResponsePlot final : public QWidget {
   /// `note` says why the curve ended early.
   void setCurves(std::vector<ResponseCurve> curves, int selected, document::StudyStatus status, bool stale,
                  const QString& note);
+  /// Drawn thin in colours of their own, named in a legend; the axes are fitted to the study's own curves.
+  void setOverlays(std::vector<ResponseOverlay> overlays);
+  const std::vector<ResponseOverlay>& overlays() const;
+  /// Amplitudes on a logarithmic axis.
+  void setLogarithmic(bool logarithmic);
+
   /// Forgets the curves; an earlier one does not stay behind in grey.
   void clear();
   /// What the plot says as long as there is no curve, and the button beside it (none if `action` is empty).
@@ -55,6 +72,7 @@ class ResponsePlot final : public QWidget {
   void setAmplitudeLabel(const QString& label);
   void setHertz(bool hertz);
   bool isHertz() const;
+  QCustomPlot* plot() const;
 
   void setShownMotion(std::optional<ResponsePlace> place);
   void setPrediction(std::optional<ResponsePlace> place);
@@ -94,6 +112,8 @@ class ResponsePlot final : public QWidget {
   void build();
   void applyStyle();
   void redrawCurves();
+  void redrawOverlays();
+  void fitAmplitudes();
   void redrawMarkers();
   void placeLabels();
   void updateChip();

@@ -47,13 +47,20 @@ void ResponsePlot::build() {
   };
   p.earlier = makeCurve();
   p.selected = makeCurve();
+  p.unstable = makeCurve();
   p.folds = makeCurve();
   p.peaks = makeCurve();
+  p.bifurcations = makeCurve();
   p.step = makeCurve();
   p.shown = makeCurve();
   p.predicted = makeCurve();
   p.hover = makeCurve();
-  for (QCPCurve* marker : {p.folds, p.peaks, p.shown, p.predicted, p.hover}) marker->setLineStyle(QCPCurve::lsNone);
+  for (QCPCurve* marker : {p.folds, p.peaks, p.bifurcations, p.shown, p.predicted, p.hover}) marker->setLineStyle(QCPCurve::lsNone);
+
+  p.plot->legend->setVisible(false);
+  p.plot->legend->setSelectableParts(QCPLegend::spNone);
+  p.plot->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+  p.plot->setAutoAddPlottableToLegend(false);
 
   p.cursor = new QCPItemStraightLine(p.plot);
   p.cursor->setVisible(false);
@@ -109,7 +116,12 @@ void ResponsePlot::applyStyle() {
     axis->setNumberFormat(QStringLiteral("gb"));
     axis->setNumberPrecision(5);
   }
-  p.plot->yAxis->ticker()->setTickCount(4);
+  p.plot->legend->setFont(small);
+  p.plot->legend->setTextColor(s.text);
+  QColor legend = s.background;
+  legend.setAlpha(224);
+  p.plot->legend->setBrush(legend);
+  p.plot->legend->setBorderPen(Qt::NoPen);
   p.plot->xAxis->ticker()->setTickCount(8);
 
   const auto marker = [](QCPScatterStyle::ScatterShape shape, const QPen& pen, const QBrush& brush, double size) {
@@ -117,6 +129,7 @@ void ResponsePlot::applyStyle() {
   };
   p.earlier->setPen(QPen(s.stale, 1.5));
   p.folds->setScatterStyle(marker(QCPScatterStyle::ssDiamond, QPen(s.mutedText, 1.5), s.background, 8));
+  p.bifurcations->setScatterStyle(marker(QCPScatterStyle::ssSquare, QPen(s.warning, 1.5), s.background, 8));
   p.peaks->setScatterStyle(marker(QCPScatterStyle::ssTriangle, QPen(s.text, 1.5), s.text, 8));
   p.shown->setScatterStyle(marker(QCPScatterStyle::ssCircle, QPen(s.background, 2), s.shown, 13));
   p.predicted->setScatterStyle(

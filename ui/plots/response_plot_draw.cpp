@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "ui/plots/response_plot_parts.hpp"
 #include "ui/plots/smooth_path.hpp"
@@ -11,18 +13,42 @@ namespace {
 constexpr int pointsBetween = 7;       // two computed ones
 constexpr qsizetype manyPoints = 500;  // smooth as they are
 
-void fill(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre) {
-  QVector<QPointF> points;
-  for (std::size_t i = 0; i < curve.omega.size(); ++i)
-    points.push_back({curve.omega[i] * perOmega, curve.amplitude[i] * perMetre});
-  const QVector<QPointF> path = smoothPath(points, points.size() > manyPoints ? 0 : pointsBetween);
-  QVector<double> t(path.size()), keys(path.size()), values(path.size());
-  for (qsizetype i = 0; i < path.size(); ++i) {
-    t[i] = static_cast<double>(i);
-    keys[i] = path[i].x();
-    values[i] = path[i].y();
+/// Okabe and Ito's colours that the study's own curves leave.
+constexpr std::array<QRgb, 5> overlayColors{0xffd55e00, 0xff009e73, 0xffcc79a7, 0xff8a6d00, 0xff56b4e9};
+
+/// Fills `into`, and `unstable`, if given, with the unstable parts; both begin anew where another branch begins.
+void fill(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre, int mostBetween = pointsBetween,
+          QCPCurve* unstable = nullptr) {
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t count = curve.omega.size();
+  const auto isUnstable = [&](std::size_t point) {
+    return unstable && point < curve.unstable.size() && curve.unstable[point];
+  };
+  QVector<double> t, keys, stableValues, unstableValues;
+  const auto append = [&](const QPointF& place, bool drawStable, bool drawUnstable) {
+    t.push_back(static_cast<double>(t.size()));
+    keys.push_back(place.x());
+    stableValues.push_back(drawStable ? place.y() : gap);
+    unstableValues.push_back(drawUnstable ? place.y() : gap);
+  };
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    QVector<QPointF> points;
+    for (end = begin; end < count && (curve.branches.empty() || curve.branches[end] == curve.branches[begin]); ++end)
+      points.push_back({curve.omega[end] * perOmega, curve.amplitude[end] * perMetre});
+    const int between = points.size() > manyPoints ? 0 : mostBetween;
+    const QVector<QPointF> path = smoothPath(points, between);
+    for (qsizetype i = 0; i < path.size(); ++i) {
+      // The pieces that meet here; a piece is unstable if one of the computed points at its ends is.
+      const std::size_t point = begin + static_cast<std::size_t>(i / (between + 1));
+      const bool onPoint = i % (between + 1) == 0;
+      const bool after = isUnstable(point) || (point + 1 < end && isUnstable(point + 1));
+      const bool before = onPoint && point > begin ? isUnstable(point - 1) || isUnstable(point) : after;
+      append(path[i], !before || !after, before || after);
+    }
+    if (!path.isEmpty()) append(path.back(), false, false);
   }
-  into->setData(t, keys, values, true);
+  into->setData(t, keys, stableValues, true);
+  if (unstable) unstable->setData(t, keys, unstableValues, true);
 }
 
 void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double perOmega, double perMetre) {
@@ -62,22 +88,27 @@ void ResponsePlot::redrawCurves() {
   for (QCPCurve* curve : p.others) curve->data()->clear();
   std::size_t other = 0;
   p.selected->data()->clear();
+  p.unstable->data()->clear();
   for (int i = 0; i < static_cast<int>(p.curves.size()); ++i) {
     QCPCurve* curve = i == p.selectedCurve ? p.selected : p.others[other++];
-    fill(curve, p.curves[i], perOmega, perMetre);
+    fill(curve, p.curves[i], perOmega, perMetre, pointsBetween, curve == p.selected ? p.unstable : nullptr);
     if (curve != p.selected) curve->setPen(QPen(faded ? p.style.grid : p.style.otherCurve, 1));
   }
   p.selected->setPen(QPen(faded ? p.style.stale : p.style.curve, faded ? 1.5 : 2));
+  QPen dashes = p.selected->pen();
+  dashes.setDashPattern({4, 3});
+  p.unstable->setPen(dashes);
+  redrawOverlays();
 
   for (Landmark& landmark : p.landmarks) p.plot->removeItem(landmark.label);
   p.landmarks.clear();
-  ResponseCurve folds, peaks;
+  ResponseCurve folds, peaks, bifurcations;
   if (const ResponseCurve* curve = p.curve()) {
     for (std::size_t i = 0; i < curve->omega.size(); ++i) {
       const auto kind = i < curve->kinds.size() ? curve->kinds[i] : harmonic::PointKind::regular;
       if (kind == harmonic::PointKind::regular) continue;
       const bool peak = kind == harmonic::PointKind::peak;
-      ResponseCurve& into = peak ? peaks : folds;
+      ResponseCurve& into = peak ? peaks : kind == harmonic::PointKind::fold ? folds : bifurcations;
       into.omega.push_back(curve->omega[i]);
       into.amplitude.push_back(curve->amplitude[i]);
       auto* label = new QCPItemText(p.plot);
@@ -86,14 +117,41 @@ void ResponsePlot::redrawCurves() {
       small.setPointSizeF(font().pointSizeF() * 0.85);
       label->setFont(small);
       label->setColor(faded ? p.style.mutedText : peak ? p.style.text : p.style.mutedText);
-      const QString frequency = formatFrequency(curve->omega[i], p.hertz);
-      p.landmarks.push_back(
-          {curve->omega[i], curve->amplitude[i], peak, landmarkName(kind) + QStringLiteral(" ") + frequency, label});
+      const QString text = kindName(kind) + ' ' + formatFrequency(curve->omega[i], p.hertz);
+      p.landmarks.push_back({curve->omega[i], curve->amplitude[i], peak, text, label});
     }
   }
-  fill(p.folds, folds, perOmega, perMetre);
-  fill(p.peaks, peaks, perOmega, perMetre);
+  fill(p.folds, folds, perOmega, perMetre, 0);
+  fill(p.peaks, peaks, perOmega, perMetre, 0);
+  fill(p.bifurcations, bifurcations, perOmega, perMetre, 0);
   updateAxisLabels();
+}
+
+void ResponsePlot::redrawOverlays() {
+  Parts& p = *parts_;
+  for (QCPCurve* curve : p.overlayCurves) p.plot->removePlottable(curve);
+  p.overlayCurves.clear();
+  p.plot->legend->clearItems();
+  for (std::size_t i = 0; i < p.overlays.size(); ++i) {
+    const ResponseOverlay& overlay = p.overlays[i];
+    const QColor color(overlayColors[i % overlayColors.size()]);
+    auto* curve = new QCPCurve(p.plot->xAxis, p.plot->yAxis);
+    curve->setAntialiased(true);
+    curve->setSelectable(QCP::stNone);
+    curve->setName(overlay.name);
+    curve->setPen(QPen(color, 1.5));
+    if (overlay.dots) {
+      curve->setLineStyle(QCPCurve::lsNone);
+      curve->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(color, 1.5), p.style.background, 7));
+    }
+    ResponseCurve drawn;
+    drawn.omega = overlay.omega;
+    drawn.amplitude = overlay.amplitude;
+    fill(curve, drawn, frequencyFactor(), p.unit.perMetre, overlay.dots ? 0 : pointsBetween);
+    curve->addToLegend();
+    p.overlayCurves.push_back(curve);
+  }
+  p.plot->legend->setVisible(!p.overlays.empty());
 }
 
 void ResponsePlot::redrawMarkers() {

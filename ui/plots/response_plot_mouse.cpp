@@ -94,15 +94,29 @@ void ResponsePlot::release(QMouseEvent* event) {
   if (index >= 0 && distance <= clickRadius) Q_EMIT pointChosen(index);
 }
 
+QString kindName(harmonic::PointKind kind) {
+  using harmonic::PointKind;
+  switch (kind) {
+    case PointKind::fold: return ResponsePlot::tr("fold");
+    case PointKind::peak: return ResponsePlot::tr("peak");
+    case PointKind::branchPoint: return ResponsePlot::tr("branch point");
+    case PointKind::periodDoubling: return ResponsePlot::tr("period doubling");
+    case PointKind::neimarkSacker: return ResponsePlot::tr("Neimark-Sacker");
+    case PointKind::regular: break;
+  }
+  return {};
+}
+
 QString ResponsePlot::pointText(int index) const {
   const Parts& p = *parts_;
   const ResponseCurve& curve = p.curves[p.selectedCurve];
   QString kind;
-  if (index < static_cast<int>(curve.kinds.size())) {
-    if (const QString name = landmarkName(curve.kinds[index]); !name.isEmpty()) kind = name + QStringLiteral(": ");
-  }
-  return QStringLiteral("%1%2, %3")
-      .arg(kind, formatFrequency(curve.omega[index], p.hertz), formatLength(curve.amplitude[index]));
+  if (index < static_cast<int>(curve.kinds.size())) kind = kindName(curve.kinds[index]);
+  if (!kind.isEmpty()) kind += QStringLiteral(": ");
+  const bool unstable = index < static_cast<int>(curve.unstable.size()) && curve.unstable[index];
+  return QStringLiteral("%1%2, %3%4")
+      .arg(kind, formatFrequency(curve.omega[index], p.hertz), formatLength(curve.amplitude[index]),
+           unstable ? tr(", unstable") : QString());
 }
 
 void ResponsePlot::readOut(const QPointF& pixel) {

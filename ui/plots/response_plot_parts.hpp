@@ -11,7 +11,10 @@
 
 namespace pliant::plots {
 
-/// A peak, or a fold or another bifurcation, with its text.
+/// "fold"; empty for a regular point.
+QString kindName(harmonic::PointKind kind);
+
+/// A fold, a peak or another bifurcation with its text.
 struct Landmark {
   double omega = 0;
   double amplitude = 0;
@@ -35,8 +38,11 @@ struct ResponsePlot::Parts {
   QCPCurve* earlier = nullptr;    ///< the curve before this one, grey
   std::vector<QCPCurve*> others;  ///< of nodes that are not selected
   QCPCurve* selected = nullptr;
+  QCPCurve* unstable = nullptr;  ///< the unstable parts of the selected curve
+  std::vector<QCPCurve*> overlayCurves;
   QCPCurve* folds = nullptr;
   QCPCurve* peaks = nullptr;
+  QCPCurve* bifurcations = nullptr;  ///< that are no folds
   QCPCurve* shown = nullptr;
   QCPCurve* predicted = nullptr;
   QCPCurve* step = nullptr;  ///< from the shown motion to the predicted one
@@ -49,6 +55,7 @@ struct ResponsePlot::Parts {
 
   PlotStyle style;
   std::vector<ResponseCurve> curves;
+  std::vector<ResponseOverlay> overlays;
   int selectedCurve = 0;
   document::StudyStatus status = document::StudyStatus::none;
   bool stale = false;
@@ -59,7 +66,8 @@ struct ResponsePlot::Parts {
   LengthUnit unit{QStringLiteral("mm"), 1e3};
   double from = 0;
   double to = 0;
-  double top = 0;       ///< of the amplitude axis when everything is shown [m]
+  double top = 0;  ///< of the amplitude axis when everything is shown [m]
+  bool logarithmic = false;
   bool zoomed = false;  ///< the designer chose what is shown
   std::optional<ResponsePlace> shownPlace;
   std::optional<ResponsePlace> predictedPlace;

@@ -21,6 +21,8 @@
 #include "ui/panels/inspector.hpp"
 #include "ui/panels/log_panel.hpp"
 #include "ui/panels/message_bar.hpp"
+#include "ui/panels/modes_panel.hpp"
+#include "ui/panels/motion_panel.hpp"
 #include "ui/panels/parameter_panel.hpp"
 #include "ui/panels/response_panel.hpp"
 #include "ui/panels/scene_tree.hpp"
@@ -100,6 +102,8 @@ void MainWindow::buildDocks() {
   tree_ = new panels::SceneTree(document_);
   parameters_ = new panels::ParameterPanel(document_, session_);
   response_ = new panels::ResponsePanel(document_, session_, quickJobs_);
+  motion_ = new panels::MotionPanel(session_);
+  modes_ = new panels::ModesPanel(document_, session_);
   log_ = new panels::LogPanel;
   const auto add = [this](const QString& title, const char* name, QWidget* widget, Qt::DockWidgetArea area) {
     auto* dock = new QDockWidget(title, this);
@@ -116,7 +120,12 @@ void MainWindow::buildDocks() {
   add(tr("Inspector"), "inspector", new panels::Inspector(document_, session_), Qt::RightDockWidgetArea);
   QDockWidget* plot = add(tr("Frequency response"), "response", response_, Qt::BottomDockWidgetArea);
   QDockWidget* log = add(tr("Messages"), "messages", log_, Qt::BottomDockWidgetArea);
-  tabifyDockWidget(plot, log);
+  QDockWidget* motion = add(tr("Motion"), "motion", motion_, Qt::BottomDockWidgetArea);
+  QDockWidget* modes = add(tr("Modes"), "modes", modes_, Qt::RightDockWidgetArea);
+  tabifyDockWidget(docks_[2], modes);
+  docks_[2]->raise();
+  tabifyDockWidget(plot, motion);
+  tabifyDockWidget(motion, log);
   plot->raise();
 }
 
@@ -139,7 +148,11 @@ void MainWindow::buildStatusBar() {
 }
 
 void MainWindow::connectParts() {
-  new ViewportLink(document_, session_, *viewport_, this);
+  auto* link = new ViewportLink(document_, session_, *viewport_, this);
+  connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
+  connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
+  connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);
+  connect(viewport_, &viewport::Viewport::tauChanged, motion_, &panels::MotionPanel::setTau);
   status_->watch(studyJobs_);
   status_->watch(sceneJobs_);
   status_->watch(quickJobs_);

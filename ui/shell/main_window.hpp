@@ -18,6 +18,8 @@ class QToolButton;
 namespace pliant::panels {
 class LogPanel;
 class MessageBar;
+class ModesPanel;
+class MotionPanel;
 class ParameterPanel;
 class ResponsePanel;
 class SceneTree;
@@ -51,6 +53,8 @@ class MainWindow final : public QMainWindow {
   viewport::Viewport& viewport() { return *viewport_; }
   panels::ParameterPanel& parameters() { return *parameters_; }
   panels::ResponsePanel& response() { return *response_; }
+  panels::ModesPanel& modes() { return *modes_; }
+  panels::MotionPanel& motion() { return *motion_; }
   panels::MessageBar& messages() { return *messages_; }
   panels::SceneTree& sceneTree() { return *tree_; }
 
@@ -110,6 +114,8 @@ class MainWindow final : public QMainWindow {
   panels::SceneTree* tree_ = nullptr;
   panels::ParameterPanel* parameters_ = nullptr;
   panels::ResponsePanel* response_ = nullptr;
+  panels::ModesPanel* modes_ = nullptr;
+  panels::MotionPanel* motion_ = nullptr;
   panels::LogPanel* log_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;

@@ -62,6 +62,15 @@ void ViewportLink::showMotion() {
   showPrediction();
 }
 
+void ViewportLink::showMode(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
+                            const harmonic::Vector& z, const QString& caption) {
+  if (!drawn_ || !looksAlike(problem->model(), *drawn_)) return;
+  viewport_.setMotion(problem, z);
+  viewport_.setSelectedNode(session_.node());
+  viewport_.setCaption(document_.title() + '\n' + caption);
+  viewport_.play();
+}
+
 void ViewportLink::showPrediction() {
   const auto& shown = session_.shown();
   if (!shown || !drawn_ || !looksAlike(shown->problem->model(), *drawn_)) return;

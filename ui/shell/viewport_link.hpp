@@ -15,9 +15,14 @@ class ViewportLink final : public QObject {
   ViewportLink(document::Document& document, jobs::MotionSession& session, viewport::Viewport& viewport,
                QObject* parent = nullptr);
 
+  /// The session's motion, after a mode.
+  void showMotion();
+  /// A linear mode, until the session shows something else.
+  void showMode(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const harmonic::Vector& z,
+                const QString& caption);
+
  private:
   void showModel();
-  void showMotion();
   void showPrediction();
   QString caption() const;
 
