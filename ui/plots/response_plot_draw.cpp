@@ -60,18 +60,6 @@ void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double
 
 }  // namespace
 
-QString landmarkName(harmonic::PointKind kind) {
-  switch (kind) {
-    case harmonic::PointKind::regular: return {};
-    case harmonic::PointKind::fold: return ResponsePlot::tr("fold");
-    case harmonic::PointKind::peak: return ResponsePlot::tr("peak");
-    case harmonic::PointKind::branchPoint: return ResponsePlot::tr("branch point");
-    case harmonic::PointKind::periodDoubling: return ResponsePlot::tr("period doubling");
-    case harmonic::PointKind::neimarkSacker: return ResponsePlot::tr("Neimark-Sacker");
-  }
-  return {};
-}
-
 void ResponsePlot::redrawCurves() {
   Parts& p = *parts_;
   enlargeToFit();

@@ -23,9 +23,6 @@ struct Landmark {
   QCPItemText* label = nullptr;
 };
 
-/// "fold", "peak", ...; empty for a regular point.
-QString landmarkName(harmonic::PointKind kind);
-
 /// What a ResponsePlot is made of.
 struct ResponsePlot::Parts {
   QStackedLayout* pages = nullptr;
