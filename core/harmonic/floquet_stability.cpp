@@ -23,9 +23,12 @@ constexpr double exponentTolerance = 1e-8;  ///< relative, of the exponents foun
 constexpr double outsideTolerance = 1e-3;   ///< of the next one beyond: proof that none nearer was missed
 /// Exponents with Im ρ = 1/2 (negative multipliers) are only that exact with infinitely many harmonics.
 constexpr double stripMargin = 0.01;
-constexpr double copyDistance = 0.05;
 /// Of the energy of a disturbance that may be in the highest harmonic for its exponent to count.
 constexpr double mostTopEnergy = 0.1;
+/// That makes no difference. Above it, copies are looked for that are as near as this energy suggests, so that they are
+/// not those of another exponent.
+constexpr double goodTopEnergy = 1e-3;
+constexpr double copyDistance = 0.05;
 constexpr std::size_t multipliersKept = 8;
 
 struct HillExponent {
@@ -118,11 +121,12 @@ bool inStrip(Exponent exponent) {
 /// The best copy of an exponent, moved to where that stands.
 HillExponent bestCopy(const HillExponent& original, const std::vector<HillExponent>& all) {
   HillExponent best = original;
-  if (original.topEnergy <= 1e-6) return best;
+  if (original.topEnergy <= goodTopEnergy) return best;
+  const double distance = std::min(copyDistance, original.topEnergy);
   for (const HillExponent& other : all) {
     const double shift = std::round(other.exponent.imag() - original.exponent.imag());
     const Exponent copy = other.exponent - Exponent(0, shift);
-    if (shift != 0 && std::abs(copy - original.exponent) < copyDistance && other.topEnergy < best.topEnergy)
+    if (shift != 0 && std::abs(copy - original.exponent) < distance && other.topEnergy < best.topEnergy)
       best = {copy, other.topEnergy};
   }
   return best;

@@ -92,7 +92,8 @@ class MotionSearch {
     motion_.omega = omega_;
     bool done = false;
     if (start.size() > 0) done = newtonFrom(start, {});
-    if (!done && findSteadyState()) done = newtonFrom(linearResponse(), steady_) || rampDrive();
+    if (!done && findSteadyState())
+      done = newtonFrom(linearResponse(), steady_) || (options_.startScale == 1 && rampDrive());
     motion_.factorization = solver_.factorization();
     motion_.report.seconds = watch.seconds();
     return std::move(motion_);
@@ -124,13 +125,13 @@ class MotionSearch {
     return false;
   }
 
-  /// The motion that the drive would cause if the model answered linearly about its steady state.
+  /// The motion that the drive would cause if the model answered linearly about its steady state, scaled as wanted.
   Vector linearResponse() {
     DriveRamp ramp(problem_, solver_, omega_);
     const Vector derivative = ramp.linearize(steady_, 0);
     if (!solver_.factorize()) return steady_;
     const Vector response = solver_.solve(derivative);
-    return response.allFinite() ? Vector(steady_ - response) : steady_;
+    return response.allFinite() ? Vector(steady_ - options_.startScale * response) : steady_;
   }
 
   bool rampDrive() {

@@ -11,6 +11,9 @@ struct PeriodicMotionOptions {
   double stepTolerance = 1e-10;  ///< a correction of z below this, relative to the swing, also counts as converged
   int maximumIterations = 40;    ///< Newton iterations a drive level
   int maximumRampSteps = 64;     ///< levels by which the drive may be ramped up where Newton from rest fails
+  /// Factor on the linear response that Newton's method starts from. Others than 1, also negative ones, lead to other
+  /// motions where there are several; the drive is not ramped up then, since that leads back to the usual one.
+  double startScale = 1;
 };
 
 /// One periodic solution.

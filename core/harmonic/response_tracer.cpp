@@ -52,7 +52,7 @@ bool twins(const HarmonicBalanceProblem& problem, const ResponsePoint& a, const 
 
 ResponseTracer::ResponseTracer(const HarmonicBalanceProblem& problem, const FrequencyResponseOptions& options,
                                base::ExecutionContext& context, const PointCallback& onPoint)
-    : problem_(std::make_shared<const HarmonicBalanceProblem>(problem)),
+    : problem_(std::shared_ptr<const HarmonicBalanceProblem>(), &problem),  // not owned: the caller's counts its cost
       options_(options),
       context_(context),
       onPoint_(onPoint) {}

@@ -76,7 +76,6 @@ Json bifurcationEntry(const HarmonicResult& result, const ResponsePoint& point) 
   return entry;
 }
 
-
 void addCurve(const HarmonicResult& result, Json& json) {
   Json folds = Json::array(), peaks = Json::array(), bifurcations = Json::array();
   long newtonIterations = 0;

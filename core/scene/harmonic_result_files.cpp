@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/surface_mesh.hpp"
+#include "core/harmonic/backbone.hpp"
 #include "core/harmonic/constraint_violation.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/harmonic_names.hpp"
@@ -36,7 +37,10 @@ std::string responseTable(const HarmonicResult& result) {
       .add("arc length")
       .add("residual")
       .add("correction");
-  csv.add("stability").add("unstable multipliers").add("critical multiplier").add("critical multiplier, imaginary");
+  csv.add("stability")
+      .add("unstable multipliers")
+      .add("critical multiplier (real)")
+      .add("critical multiplier (imaginary)");
   for (const auto& probe : model.probes)
     csv.add(probe.name + " path length [m]").add(probe.name + " maximum displacement [m]");
   csv.add("newton iterations");
@@ -218,7 +222,8 @@ base::TerminationType terminationOf(const std::string& text) {
 
 void readSummary(HarmonicResult& result, const Json& summary) {
   result.isLinear = summary.at("type") == "linear_response";
-  result.isCurve = result.isLinear || summary.at("type") == "frequency_response";
+  result.isBackbone = summary.at("type") == "backbone";
+  result.isCurve = result.isLinear || result.isBackbone || summary.at("type") == "frequency_response";
   result.termination = terminationOf(summary.at("termination"));
   result.message = summary.at("message");
   result.seconds = summary.at("seconds");
@@ -262,7 +267,9 @@ std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const s
             "", "This result has no periodic motions: it is of the kind " + summary.at("kind").dump() + ".");
       const math::HarmonicBasis basis(summary.at("harmonics"), summary.at("samples"));
       readSummary(*result, summary);
-      result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(modelOf(scene, summary), basis);
+      harmonic::HarmonicBalanceProblem problem(modelOf(scene, summary), basis);
+      result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(
+          result->isBackbone ? harmonic::freeProblem(problem) : std::move(problem));
     } catch (const Json::exception&) {
       throw InputError("", "This is no summary of a result, or it is damaged.");
     } catch (const std::invalid_argument&) {

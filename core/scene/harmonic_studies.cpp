@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/harmonic/backbone.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
 
@@ -35,7 +36,8 @@ class HarmonicStudy : public Study {
     harmonic::PeriodicMotionOptions newton;
     newton.tolerance = options_["tolerance"];
     newton.maximumIterations = options_["maximum_iterations"];
-    newton.maximumRampSteps = options_["maximum_ramp_steps"];
+    newton.maximumRampSteps = options_.value("maximum_ramp_steps", newton.maximumRampSteps);
+    newton.startScale = options_.value("start_scale", newton.startScale);
     return newton;
   }
 
@@ -106,7 +108,8 @@ class PeriodicMotionStudy final : public HarmonicStudy {
   }
 };
 
-class FrequencyResponseStudy final : public HarmonicStudy {
+/// Studies whose result is a curve.
+class CurveStudy : public HarmonicStudy {
  public:
   using HarmonicStudy::HarmonicStudy;
 
@@ -114,9 +117,10 @@ class FrequencyResponseStudy final : public HarmonicStudy {
     constexpr double secondsBetweenSnapshots = 0.05;
     const base::Stopwatch watch;
     base::Stopwatch sinceSnapshot;
-    harmonic::HarmonicBalanceProblem problem = makeProblem();
+    harmonic::HarmonicBalanceProblem problem = curveProblem();
     auto result = makeResult();
     result->isCurve = true;
+    result->isBackbone = type() == "backbone";
     result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(problem);
     const auto onPoint = [&](const harmonic::ResponsePoint& point) {
       result->addProblemOf(point);
@@ -127,11 +131,27 @@ class FrequencyResponseStudy final : public HarmonicStudy {
       snapshot->seconds = watch.seconds();
       observe(std::move(snapshot));
     };
-    harmonic::FrequencyResponse response =
-        harmonic::traceFrequencyResponse(problem, responseOptions(), context, onPoint);
-    finish(*result, std::move(response.report), watch);
+    finish(*result, trace(problem, context, onPoint), watch);
     if (observe) observe(result);
     return result;
+  }
+
+ protected:
+  using PointCallback = std::function<void(const harmonic::ResponsePoint&)>;
+  virtual harmonic::HarmonicBalanceProblem curveProblem() const = 0;
+  virtual base::SolverReport trace(harmonic::HarmonicBalanceProblem& problem, base::ExecutionContext& context,
+                                   const PointCallback& onPoint) const = 0;
+};
+
+class FrequencyResponseStudy final : public CurveStudy {
+ public:
+  using CurveStudy::CurveStudy;
+
+ protected:
+  harmonic::HarmonicBalanceProblem curveProblem() const override { return makeProblem(); }
+  base::SolverReport trace(harmonic::HarmonicBalanceProblem& problem, base::ExecutionContext& context,
+                           const PointCallback& onPoint) const override {
+    return harmonic::traceFrequencyResponse(problem, responseOptions(), context, onPoint).report;
   }
 
  private:
@@ -145,8 +165,26 @@ class FrequencyResponseStudy final : public HarmonicStudy {
     response.maximumPoints = options_["maximum_points"];
     response.locationTolerance = options_["location_tolerance"];
     response.stability = wantsStability();
+    response.branchDepth = options_["branches"];
     response.newton = newtonOptions();
     return response;
+  }
+};
+
+class BackboneStudy final : public CurveStudy {
+ public:
+  using CurveStudy::CurveStudy;
+
+ protected:
+  harmonic::HarmonicBalanceProblem curveProblem() const override { return harmonic::freeProblem(makeProblem()); }
+  base::SolverReport trace(harmonic::HarmonicBalanceProblem& problem, base::ExecutionContext& context,
+                           const PointCallback& onPoint) const override {
+    harmonic::BackboneOptions backbone;
+    backbone.mode = options_["mode"];
+    backbone.maximumAmplitude = options_["maximum_amplitude"];
+    backbone.maximumPoints = options_["maximum_points"];
+    backbone.newton = newtonOptions();
+    return harmonic::traceBackbone(problem, backbone, context, onPoint).report;
   }
 };
 
@@ -175,6 +213,11 @@ std::unique_ptr<Study> makePeriodicMotionStudy(const Scene& scene, std::shared_p
 std::unique_ptr<Study> makeFrequencyResponseStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                                   const Json& options) {
   return std::make_unique<FrequencyResponseStudy>(scene, std::move(model), options);
+}
+
+std::unique_ptr<Study> makeBackboneStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                         const Json& options) {
+  return std::make_unique<BackboneStudy>(scene, std::move(model), options);
 }
 
 }  // namespace pliant::scene

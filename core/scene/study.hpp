@@ -78,9 +78,9 @@ class HarmonicResult final : public Result {
  public:
   std::string kind() const override { return "harmonic"; }
   Json summary() const override;
-  /// summary.json, response.csv (a row a point), coefficients.csv (every point's Fourier coefficients, exactly),
-  /// trajectories.csv (of the probes), mesh.ply (the rest shape, if there are triangles), sensitivity.csv,
-  /// constraint_violation.csv (over a period, if there are rigid links).
+  /// summary.json, response.csv (a row a point), coefficients.csv (every point's Fourier coefficients, exactly; zeros
+  /// where another point has more of them), trajectories.csv (of the probes), mesh.ply (the rest shape, if there are
+  /// triangles), sensitivity.csv, constraint_violation.csv (over a period, if there are rigid links).
   void write(const std::filesystem::path& directory) const override;
   /// What `write` wrote for a scene with the same nodes. The model gets the values of the design parameters with which
   /// the result was computed. Throws base::InputError.
@@ -97,8 +97,9 @@ class HarmonicResult final : public Result {
   ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
-  bool isCurve = false;   ///< true for a frequency_response or a linear_response
-  bool isLinear = false;  ///< the points solve the linearised model, not h(z, ω) = 0
+  bool isCurve = false;     ///< true for a frequency_response, a linear_response or a backbone
+  bool isLinear = false;    ///< the points solve the linearised model, not h(z, ω) = 0
+  bool isBackbone = false;  ///< free motions: `problem` has no drive
 
  private:
   std::map<int, std::shared_ptr<const harmonic::HarmonicBalanceProblem>> subharmonicProblems_;  ///< by drive periods
@@ -123,7 +124,7 @@ class Study {
 using StudyFactory =
     std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>, const Json& options)>;
 
-/// Kinds of studies by "type": "periodic_motion", "frequency_response", "linear_modes", "linear_response",
+/// Kinds of studies by "type": "periodic_motion", "frequency_response", "backbone", "linear_modes", "linear_response",
 /// "time_integration", "comparison".
 class StudyRegistry {
  public:

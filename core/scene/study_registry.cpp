@@ -9,9 +9,13 @@
 namespace pliant::scene {
 
 StudyRegistry::StudyRegistry()
-    : factories_{{"periodic_motion", makePeriodicMotionStudy},   {"frequency_response", makeFrequencyResponseStudy},
-                 {"linear_modes", makeLinearModesStudy},         {"linear_response", makeLinearResponseStudy},
-                 {"time_integration", makeTimeIntegrationStudy}, {"comparison", makeComparisonStudy}} {}
+    : factories_{{"periodic_motion", makePeriodicMotionStudy},
+                 {"frequency_response", makeFrequencyResponseStudy},
+                 {"backbone", makeBackboneStudy},
+                 {"linear_modes", makeLinearModesStudy},
+                 {"linear_response", makeLinearResponseStudy},
+                 {"time_integration", makeTimeIntegrationStudy},
+                 {"comparison", makeComparisonStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;

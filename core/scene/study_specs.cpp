@@ -54,16 +54,27 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
                  dimensions::none)),
       1e-8));
   keys.push_back(withDefault(integer("maximum_iterations", "", "Newton iterations for one solution.", 1, 10'000), 40));
-  keys.push_back(
-      withDefault(integer("maximum_ramp_steps", "",
-                          "Steps in which the drive may be raised where Newton's method fails from rest.", 1, 10'000),
-                  64));
-  keys.push_back(
-      withDefault(choice("stability", "Whether to find the stability of each motion, and the bifurcations of a curve.",
-                         {"on", "off"}),
-                  "on"));
   keys.insert(keys.end(), last.begin(), last.end());
   return object(std::move(type), std::move(description), std::move(keys));
+}
+
+/// What studies of driven motions have as well, before their `own` last keys.
+std::vector<ParameterSpec> drivenKeys(const std::vector<ParameterSpec>& own) {
+  std::vector<ParameterSpec> keys{
+      withDefault(integer("maximum_ramp_steps", "",
+                          "Steps in which the drive may be raised where Newton's method fails from rest.", 1, 10'000),
+                  64),
+      withDefault(
+          number("start_scale", "",
+                 "Factor on the linear response that the first motion is sought from. Where there are several "
+                 "motions, others than 1, also negative ones, lead to others: to an isolated curve, for example.",
+                 dimensions::none),
+          1),
+      withDefault(choice("stability", "Whether to find the stability of each motion, and the bifurcations of a curve.",
+                         {"on", "off"}),
+                  "on")};
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
 }
 
 ParameterSpec step(std::string key, std::string description) {
@@ -74,22 +85,39 @@ ParameterSpec step(std::string key, std::string description) {
 
 const std::vector<ParameterSpec>& studySpecs() {
   static const std::vector<ParameterSpec> specs{
-      harmonicStudy("periodic_motion",
-                    "The periodic motion at one driving frequency, and how it depends on each design parameter.",
-                    {frequency("frequency", "ω", "Driving frequency.")},
-                    {optional(positive(
-                         number("harmonics_tolerance", "",
-                                "Raise the harmonics until no probe's trajectory changes by more than this fraction "
-                                "of its length.",
-                                dimensions::none))),
-                     withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)}),
-      harmonicStudy("frequency_response",
-                    "The curve of all periodic motions between two driving frequencies, through folds.", {from(), to()},
-                    {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
-                     step("minimum_step", "Smallest step before giving up; chosen if left out."),
-                     step("maximum_step", "Largest step; chosen if left out."),
-                     withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
-                     locationTolerance("Relative error of the frequency of folds, peaks and bifurcations.")}),
+      harmonicStudy(
+          "periodic_motion",
+          "The periodic motion at one driving frequency, and how it depends on each design parameter.",
+          {frequency("frequency", "ω", "Driving frequency.")},
+          drivenKeys({optional(positive(
+                          number("harmonics_tolerance", "",
+                                 "Raise the harmonics until no probe's trajectory changes by more than this fraction "
+                                 "of its length.",
+                                 dimensions::none))),
+                      withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
+      harmonicStudy(
+          "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
+          {from(), to()},
+          drivenKeys(
+              {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
+               step("minimum_step", "Smallest step before giving up; chosen if left out."),
+               step("maximum_step", "Largest step; chosen if left out."),
+               withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
+               locationTolerance("Relative error of the frequency of folds, peaks and bifurcations."),
+               withDefault(
+                   integer("branches", "",
+                           "Follow the curves that branch off at branch points and period doublings: 1 those that "
+                           "branch off the first curve, 2 also those that branch off these, and so on.",
+                           0, 10),
+                   0)})),
+      harmonicStudy(
+          "backbone",
+          "The free motions without damping, loads' swings and drives that continue a linear mode: how its frequency "
+          "changes with the amplitude (a nonlinear normal mode).",
+          {withDefault(integer("mode", "", "Which mode, by rising frequency.", 1, 1000), 1),
+           positive(number("maximum_amplitude", "a", "The curve ends where a node is this far from its mean position.",
+                           dimensions::length))},
+          {withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 500)}),
       object("linear_modes",
              "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
              {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),

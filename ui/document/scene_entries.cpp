@@ -140,6 +140,10 @@ class Defaults {
           if (field.key == "from") entry["from"] = from;
           if (field.key == "to") entry["to"] = to;
         }
+    if (type == "backbone") {
+      const double extent = model_.restPositions.maxCoeff() - model_.restPositions.minCoeff();
+      entry["maximum_amplitude"] = extent > 0 ? 0.1 * extent : 0.1;
+    }
     return entry;
   }
 

@@ -26,7 +26,7 @@ void StudyRunner::run(std::vector<std::string> names) {
   if (document_.isEmpty()) return;
   const auto isCurve = [this](const std::string& name) {
     const document::StudyState* study = document_.study(name);
-    return study && study->type.ends_with("_response");
+    return study && (study->type.ends_with("_response") || study->type == "backbone");
   };
   std::stable_partition(names.begin(), names.end(), [&](const std::string& name) { return !isCurve(name); });
   for (const std::string& name : names)

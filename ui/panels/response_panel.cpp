@@ -27,7 +27,9 @@ namespace {
 
 const QString amplitudeTopic = QStringLiteral("amplitudes");
 
-bool isCurve(const document::StudyState& study) { return study.type.ends_with("_response"); }
+bool isCurve(const document::StudyState& study) {
+  return study.type.ends_with("_response") || study.type == "backbone";
+}
 
 double probeAmplitude(const harmonic::ResponsePoint& point, std::size_t probe, AmplitudeMeasure measure) {
   if (probe >= point.amplitudes.size()) return 0;
@@ -239,7 +241,8 @@ void ResponsePanel::refreshEmptyState() {
   if (document_.isEmpty())
     plot_->setEmptyState(tr("Open a scene to see how far it swings at which frequency."), {});
   else if (study_.empty())
-    plot_->setEmptyState(tr("A study of the type frequency_response fills this plot. This scene has none."), {});
+    plot_->setEmptyState(
+        tr("A study of the type frequency_response or backbone fills this plot. This scene has none."), {});
   else if (const auto* study = document_.study(study_); study && study->status == StudyStatus::waiting)
     plot_->setEmptyState(tr("The study “%1” begins when what runs before it is done.").arg(study_.c_str()), {});
   else

@@ -55,7 +55,8 @@ void ResponsePlot::build() {
   p.shown = makeCurve();
   p.predicted = makeCurve();
   p.hover = makeCurve();
-  for (QCPCurve* marker : {p.folds, p.peaks, p.bifurcations, p.shown, p.predicted, p.hover}) marker->setLineStyle(QCPCurve::lsNone);
+  for (QCPCurve* marker : {p.folds, p.peaks, p.bifurcations, p.shown, p.predicted, p.hover})
+    marker->setLineStyle(QCPCurve::lsNone);
 
   p.plot->legend->setVisible(false);
   p.plot->legend->setSelectableParts(QCPLegend::spNone);
