@@ -1,9 +1,13 @@
 #include <QComboBox>
+#include <QSignalSpy>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "ui/jobs/motion_session.hpp"
+#include "ui/panels/modes_panel.hpp"
 #include "ui/panels/motion_panel.hpp"
 #include "ui/panels/response_overlays.hpp"
 #include "ui/panels/response_panel.hpp"
@@ -51,6 +55,30 @@ class TestMotionPanel : public QObject {
     }
     panel.kinds()->setCurrentIndex(1);
     QVERIFY(panel.plot()->toCsv().startsWith("Time [s],Displacement from the mean [m]"));
+  }
+
+  void aModeIsPlayedUntilItIsLeft() {
+    QVERIFY(document_->open(QStringLiteral(PLIANT_SOURCE_DIR "/scenes/harmonic/spring_chain.json")));
+    panels::ModesPanel panel(*document_, *session_);
+    QCOMPARE(panel.table()->rowCount(), 0);
+    session_->run({"modes"});
+    QTRY_VERIFY_WITH_TIMEOUT(panel.table()->rowCount() > 0, patience);
+    QSignalSpy chosen(&panel, &panels::ModesPanel::modeChosen), left(&panel, &panels::ModesPanel::modeLeft);
+    Q_EMIT panel.table()->cellClicked(1, 0);
+    QCOMPARE(panel.playedMode(), 1);
+    QCOMPARE(chosen.count(), 1);
+    const auto problem = chosen[0][0].value<std::shared_ptr<const harmonic::HarmonicBalanceProblem>>();
+    const auto z = chosen[0][1].value<harmonic::Vector>();
+    // The second mode of the chain has one node: neighbours at both ends swing against one another.
+    const auto at = [&](double tau, int node) {
+      return problem->configurationAt(z, tau)[node] - problem->model().restPositions[node];
+    };
+    const double quarter = std::numbers::pi / 2;
+    QVERIFY(at(quarter, 1) * at(quarter, 4) < 0);
+    QVERIFY(std::abs(at(quarter, 1) + at(-quarter, 1)) < 1e-12);
+    Q_EMIT panel.table()->cellClicked(1, 0);
+    QCOMPARE(panel.playedMode(), -1);
+    QCOMPARE(left.count(), 1);
   }
 
   void measurementsAreReadWithTheirUnits() {
