@@ -1,6 +1,7 @@
 #include "core/mechanics/prescribed_motion.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
@@ -54,6 +55,29 @@ class Rotation final : public PrescribedMotion {
   PeriodicSignal signal_;
 };
 
+class FrameRotation final : public PrescribedMotion {
+ public:
+  FrameRotation(int firstCoordinate, Eigen::Vector3d scaledAxis, PeriodicSignal signal)
+      : coordinates_{firstCoordinate, firstCoordinate + 1, firstCoordinate + 2},
+        scaledAxis_(std::move(scaledAxis)),
+        signal_(std::move(signal)) {}
+
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  Vector values(const Vector& rest, double tau) const override {
+    return rest + std::tan(signal_(tau) / 4) * scaledAxis_;
+  }
+
+ private:
+  std::vector<int> coordinates_;
+  Eigen::Vector3d scaledAxis_;  ///< unit axis times 4 frameLength
+  PeriodicSignal signal_;
+};
+
+void requireAxis(const Eigen::Vector3d& axis) {
+  requireVector(axis, 3, "the rotation's axis");
+  if (axis.isZero(0)) throw base::InputError("", "the rotation's axis must not be zero");
+}
+
 }  // namespace
 
 std::shared_ptr<const PrescribedMotion> makeTranslation(const std::vector<int>& nodes, Vector direction,
@@ -73,12 +97,23 @@ std::shared_ptr<const PrescribedMotion> makeRotation(const std::vector<int>& nod
   if (center.size() == 2) {
     axis = Eigen::Vector3d::UnitZ();
   } else {
-    requireVector(axis, 3, "the rotation's axis");
-    if (axis.isZero(0)) throw base::InputError("", "the rotation's axis must not be zero");
+    requireAxis(axis);
     axis.stableNormalize();
   }
   std::vector<int> coordinates = coordinatesOf(nodes, static_cast<int>(center.size()));
   return std::make_shared<Rotation>(std::move(coordinates), std::move(center), axis, std::move(signal));
+}
+
+std::shared_ptr<const PrescribedMotion> makeFrameRotation(int firstCoordinate, double frameLength, Eigen::Vector3d axis,
+                                                          PeriodicSignal signal) {
+  requirePositive(frameLength, "the length of a frame");
+  requireAxis(axis);
+  requireSignal(signal, "the rotation's signal");
+  double largest = 0;
+  for (const PeriodicSignal::Term& term : signal.terms) largest += std::abs(term.amplitude);
+  if (largest >= M_PI) throw base::InputError("", "a rotation of rods must stay below 180 degrees");
+  axis.stableNormalize();
+  return std::make_shared<FrameRotation>(firstCoordinate, 4 * frameLength * axis, std::move(signal));
 }
 
 std::shared_ptr<const PrescribedMotion> makeScalarDrive(int coordinate, double lever, PeriodicSignal signal) {

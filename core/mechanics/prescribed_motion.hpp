@@ -15,6 +15,11 @@ std::shared_ptr<const PrescribedMotion> makeTranslation(const std::vector<int>& 
 std::shared_ptr<const PrescribedMotion> makeRotation(const std::vector<int>& nodes, Vector center, Eigen::Vector3d axis,
                                                      PeriodicSignal signal);
 
+/// A rod's frame (see RodNetwork) of the given frameLength, whose three coordinates start at `firstCoordinate`, turned
+/// by the angle signal(τ) [rad] about an axis. Throws base::InputError unless the angle stays below 180°.
+std::shared_ptr<const PrescribedMotion> makeFrameRotation(int firstCoordinate, double frameLength, Eigen::Vector3d axis,
+                                                          PeriodicSignal signal);
+
 /// A scalar coordinate by the angle signal(τ) [rad], of which it is `lever` [m] times.
 std::shared_ptr<const PrescribedMotion> makeScalarDrive(int coordinate, double lever, PeriodicSignal signal);
 

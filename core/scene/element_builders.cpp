@@ -7,6 +7,7 @@
 #include "core/mechanics/solid.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/mechanism_builders.hpp"
+#include "core/scene/rod_elements.hpp"
 
 namespace pliant::scene {
 namespace {
@@ -103,9 +104,9 @@ void addSolid(const ElementContext& context) {
 }  // namespace
 
 const std::map<std::string, ElementBuilder>& elementBuilders() {
-  static const std::map<std::string, ElementBuilder> builders{{"shell", addShell},     {"membrane", addMembrane},
-                                                              {"bending", addBending}, {"solid", addSolid},
-                                                              {"link", addLink},       {"rigid_angle", addRigidAngle}};
+  static const std::map<std::string, ElementBuilder> builders{
+      {"shell", addShell}, {"membrane", addMembrane},      {"bending", addBending}, {"solid", addSolid},
+      {"link", addLink},   {"rigid_angle", addRigidAngle}, {"rod", addRods},        {"flat_rod", addRods}};
   return builders;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@
 
 namespace pliant::scene {
 
+/// Three scalar coordinates by which a rod's sections turn with a node (mechanics::RodNetwork).
+struct NodeFrame {
+  int node;
+  int firstCoordinate;
+  double length;  ///< frameLength [m]
+};
+
 /// What the builder of one entry of "elements" reads and adds to.
 struct ElementContext {
   const Json& entry;           ///< normalised
@@ -17,9 +25,11 @@ struct ElementContext {
   const Json* material;        ///< the entry's material, normalised; null for elements without one
   const PlacedGeometry& geometry;
   mechanics::MassMatrix massMatrix;
+  const std::set<int>& heldNodes;             ///< locked wholly, or driven: these clamp the rods that meet there
   mechanics::Model& model;                    ///< energies and scalar coordinates are added to it
   mechanics::DisplayPart& part;               ///< of the geometry
-  std::vector<Eigen::Triplet<double>>& mass;  /// on all coordinates [kg]
+  std::vector<Eigen::Triplet<double>>& mass;  ///< on all coordinates [kg]
+  std::vector<NodeFrame>& frames;             ///< of rods
 };
 
 using ElementBuilder = void (*)(const ElementContext&);

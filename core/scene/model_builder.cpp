@@ -100,8 +100,21 @@ class Builder {
     model_.lockedCoordinates.assign(static_cast<std::size_t>(model_.restPositions.size()), 0);
   }
 
+  /// Nodes that a boundary condition locks wholly, or that are driven.
+  std::set<int> heldNodes() {
+    std::set<int> held;
+    const auto hold = [&](const Json& entry, const std::string& pointer) {
+      if (entry["type"] == "servo" || entry.contains("coordinates")) return;
+      for (const int node : nodesAt(entry, pointer)) held.insert(node);
+    };
+    forEach("boundary_conditions", hold);
+    forEach("drives", hold);
+    return held;
+  }
+
   void addElements() {
     std::vector<Eigen::Triplet<double>> mass;
+    const std::set<int> held = heldNodes();
     const auto kind =
         scene_["mass_matrix"] == "lumped" ? mechanics::MassMatrix::lumped : mechanics::MassMatrix::consistent;
     forEach("elements", [&](const Json& entry, const std::string& pointer) {
@@ -112,7 +125,8 @@ class Builder {
       const auto geometry = std::find_if(
           geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
       mechanics::DisplayPart& part = model_.parts[static_cast<std::size_t>(geometry - geometries_.begin())];
-      elementBuilders().at(entry["type"])({entry, pointer, material, *geometry, kind, model_, part, mass});
+      elementBuilders().at(entry["type"])(
+          {entry, pointer, material, *geometry, kind, held, model_, part, mass, frames_});
     });
     mechanics::SparseMatrix matrix(model_.restPositions.size(), model_.restPositions.size());
     matrix.setFromTriplets(mass.begin(), mass.end());
@@ -162,6 +176,7 @@ class Builder {
     for (const int node : nodesAt(entry, pointer)) {
       if (!entry.contains("coordinates")) {
         for (int axis = 0; axis < dimension_; ++axis) lockCoordinate(node, axis);
+        for (const NodeFrame& frame : framesOf({node})) lockFrame(frame);
         continue;
       }
       for (const Json& axis : entry["coordinates"]) lockCoordinate(node, axis.get_ref<const std::string&>()[0] - 'x');
@@ -169,6 +184,17 @@ class Builder {
   }
 
   void lockCoordinate(int node, int axis) { model_.lockedCoordinates[node * dimension_ + axis] = 1; }
+
+  void lockFrame(const NodeFrame& frame) {
+    for (int i = 0; i < 3; ++i) model_.lockedCoordinates[frame.firstCoordinate + i] = 1;
+  }
+
+  std::vector<NodeFrame> framesOf(const std::vector<int>& nodes) const {
+    std::vector<NodeFrame> found;
+    for (const NodeFrame& frame : frames_)
+      if (std::find(nodes.begin(), nodes.end(), frame.node) != nodes.end()) found.push_back(frame);
+    return found;
+  }
 
   void addDrive(const Json& entry, const std::string& pointer) {
     std::vector<int> nodes = nodesAt(entry, pointer);
@@ -180,10 +206,14 @@ class Builder {
       if (!driven_.insert(node).second) throw InputError(pointer + "/at", nodeText(node) + " is driven twice.");
     }
     if (entry["type"] == "translation") {
+      for (const NodeFrame& frame : framesOf(nodes)) lockFrame(frame);
       model_.drives.push_back(mechanics::makeTranslation(
           std::move(nodes), toVector(entry["direction"]).stableNormalized(), toSignal(entry["harmonics"])));
     } else {
       const Eigen::Vector3d axis = toVector(entry["axis"]);
+      for (const NodeFrame& frame : framesOf(nodes))
+        model_.drives.push_back(
+            mechanics::makeFrameRotation(frame.firstCoordinate, frame.length, axis, toSignal(entry["harmonics"])));
       model_.drives.push_back(mechanics::makeRotation(
           std::move(nodes), toVector(entry["center"]), axis.stableNormalized(), toSignal(entry["harmonics"])));
     }
@@ -226,6 +256,7 @@ class Builder {
   std::vector<PlacedGeometry> geometries_;
   mechanics::Model model_;
   std::set<int> driven_;
+  std::vector<NodeFrame> frames_;
 };
 
 mechanics::Model buildWithoutSceneParameters(const Scene& scene) { return Builder(scene).build(); }

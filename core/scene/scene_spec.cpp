@@ -1,3 +1,4 @@
+#include "core/scene/element_specs.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/spec_builder.hpp"
 #include "core/scene/study_specs.hpp"
@@ -9,7 +10,6 @@ using namespace spec;
 namespace dimensions = base::dimensions;
 
 constexpr int longestList = 10'000;
-constexpr int largestMesh = 1'000'000;
 
 /// A geometry: its own keys between its name and its placement.
 ParameterSpec geometry(std::string type, std::string description, std::vector<ParameterSpec> keys) {
@@ -31,8 +31,6 @@ ParameterSpec cells(std::string key, std::string description) {
 ParameterSpec length(std::string key, std::string description) {
   return positive(number(std::move(key), "", std::move(description), dimensions::length));
 }
-
-ParameterSpec nodeIndex() { return integer("", "", "A node.", 0, 1'000'000'000); }
 
 /// Elements of `corners` nodes each.
 ParameterSpec tuples(std::string key, std::string description, std::string item, int corners) {
@@ -98,63 +96,6 @@ ParameterSpec geometries() {
        }())});
 }
 
-ParameterSpec materials() {
-  return variant("material", "What elements are made of.",
-                 {object("isotropic", "St. Venant-Kirchhoff, the same in every direction.",
-                         {name(), positive(number("density", "ρ", "Mass per volume.", dimensions::density)),
-                          positive(number("young_modulus", "E", "Young's modulus.", dimensions::pressure)),
-                          within(number("poisson_ratio", "ν", "Poisson's ratio.", dimensions::none), -0.99, 0.5)})});
-}
-
-ParameterSpec factors(std::string key, std::string description) {
-  return withDefault(list(std::move(key), std::move(description),
-                          positive(number("", "", "A factor.", dimensions::none)), 0, 6 * largestMesh),
-                     Json::array());
-}
-
-ParameterSpec joints(int most) {
-  return list("joints", "Indices of the nodes, counted from 0 in the geometry.", nodeIndex(), most == 3 ? 3 : 2, most);
-}
-
-ParameterSpec linkStiffness() {
-  return withDefault(positive(number("stiffness", "K", "Force per relative change of length of the stiff penalty.",
-                                     dimensions::force)),
-                     1e7);
-}
-
-ParameterSpec elements() {
-  const auto geometry = optional(reference("geometry", "Whose; may be left out where there is one.", "geometry"));
-  const auto material = optional(reference("material", "May be left out where there is one.", "materials"));
-  const auto stiffnessFactors =
-      factors("stiffness_factors", "Multiply Young's modulus, one an element; all 1 if empty.");
-  const auto sheet = [&](std::string type, std::string description) {
-    return object(
-        std::move(type), std::move(description),
-        {name(), geometry, material, positive(number("thickness", "h", "Thickness.", dimensions::length)),
-         stiffnessFactors, factors("thickness_factors", "Multiply the thickness, one a triangle; all 1 if empty.")});
-  };
-  return variant(
-      "element", "Turns the triangles or tetrahedra of a geometry into an elastic body with mass, or joins its nodes.",
-      {sheet("shell", "Triangles: a membrane that also resists bending (discrete shells), in 3 dimensions."),
-       sheet("membrane",
-             "Triangles that resist stretch and shear alone (constant strain, plane stress), in 2 or 3 dimensions."),
-       sheet("bending", "Triangles that resist bending alone and have no mass, in 3 dimensions."),
-       object("solid", "Tetrahedra of constant strain, in 3 dimensions.",
-              {name(), geometry, material,
-               optional(text("group", "Only the tetrahedra all of whose nodes are in this group of the geometry.")),
-               stiffnessFactors}),
-       object("link",
-              "A rigid bar through two or more joints. Its local coordinates start in the first joint, along the "
-              "line to the second.",
-              {name(), geometry, joints(1000),
-               withDefault(notNegative(number(
-                               "mass", "m", "Mass, uniform along the line through the joints.", dimensions::mass)),
-                           0),
-               linkStiffness()}),
-       object("rigid_angle", "Keeps the angle at the second of three joints, as if they were one bar.",
-              {name(), geometry, joints(3), linkStiffness()})});
-}
-
 ParameterSpec coefficients() {
   constexpr int highestPower = 9;
   ParameterSpec spec =
@@ -210,20 +151,21 @@ ParameterSpec pointMasses() {
 }
 
 ParameterSpec boundaryConditions() {
-  return variant("boundary_condition", "What some nodes may not do.",
-                 {object("locked", "Coordinates that keep their rest value.",
-                         {name(), selection("at", "Nodes."),
-                          optional(list("coordinates", "Which; all if left out.",
-                                        choice("", "A coordinate.", {"x", "y", "z"}), 1, 3))})});
+  return variant(
+      "boundary_condition", "What some nodes may not do.",
+      {object("locked", "Coordinates that keep their rest value. Where all are locked, rods are clamped as well.",
+              {name(), selection("at", "Nodes."),
+               optional(list("coordinates", "Which; all if left out. If given, rods may still turn.",
+                             choice("", "A coordinate.", {"x", "y", "z"}), 1, 3))})});
 }
 
 ParameterSpec drives() {
   return variant(
       "drive", "Prescribes the periodic motion of nodes exactly.",
-      {object("translation", "Moves nodes along a line.",
+      {object("translation", "Moves nodes along a line; rods that meet there keep their direction.",
               {name(), selection("at", "Nodes."), vector("direction", "Only the direction counts.", dimensions::none),
                signal("Displacement over time.", dimensions::length)}),
-       object("rotation", "Turns nodes about an axis.",
+       object("rotation", "Turns nodes about an axis, and with them the rods that meet there.",
               {name(), selection("at", "Nodes."),
                withDefault(vector("center", "A place on the axis.", dimensions::length), {0, 0, 0}),
                withDefault(list("axis", "Direction of the axis; in 2 dimensions it is z.",
@@ -280,8 +222,8 @@ ParameterSpec makeSceneSpec() {
                           {"lumped", "consistent"}),
                    "lumped"),
        entries("geometry", "Nodes and triangles.", geometries()),
-       entries("materials", "What elements are made of.", materials()),
-       entries("elements", "Elastic bodies.", elements()),
+       entries("materials", "What elements are made of.", materialSpecs()),
+       entries("elements", "Elastic bodies.", elementSpecs()),
        entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
        entries("springs", "Springs.", springs()),
        entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
