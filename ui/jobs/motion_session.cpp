@@ -153,7 +153,7 @@ void MotionSession::showPoint(const std::string& name, int point) {
   motion.report.termination = base::TerminationType::converged;
   motion.report.iterations.push_back({found.newtonIterations, found.residual, 0, found.correction});
   show({result->problemOf(found), std::move(motion), *study->solvedScene,
-        result->isCurve ? nullptr : result->sensitivity, name, point});
+        result->isCurve ? nullptr : result->sensitivity, name, point, !result->isLinear && !result->isBackbone});
 }
 
 void MotionSession::show(ShownMotion shown) {
@@ -204,7 +204,7 @@ void MotionSession::refreshNode() {
 }
 
 void MotionSession::computeSensitivity() {
-  if (shown_->problem->model().parameters.empty()) return;
+  if (shown_->problem->model().parameters.empty() || !shown_->solvesDrivenModel) return;
   Job job;
   job.topic = sensitivityTopic;
   job.work = [this, problem = shown_->problem, motion = shown_->motion](
@@ -351,6 +351,8 @@ std::shared_ptr<const mechanics::Model> MotionSession::previewedModel() const {
 
 QString MotionSession::predictionObstacle() const {
   if (!shown_) return tr("Run a study to see what the parameters do.");
+  if (!shown_->solvesDrivenModel)
+    return tr("This is a motion of the linear or the free model; choose one of the driven model to predict from.");
   if (!comparable_) return tr("More than parameters has changed; update to predict again.");
   if (shown_->sensitivity && !shown_->sensitivity->regular())
     return tr("At a fold the motion has no derivative; choose another point of the curve.");

@@ -70,7 +70,7 @@ class TestMotionChart : public QObject {
   void strainOfAGrowingMeshIsItsGrowth() {
     const geometry::SurfaceMesh mesh = stripMesh({});
     const auto model = strip({}, mesh);
-    model->parts = {{"strip", 0, model->nodeCount(), mesh.triangles, {}, {}}};
+    model->parts = {{"strip", 0, model->nodeCount(), mesh.triangles, {}, {}, {}}};
     model->finish();
     const HarmonicBalanceProblem problem(model, {1, 8});
     // x = (1 + 0.1 cos τ) rest
