@@ -23,7 +23,8 @@ class CosineBranch final : public solvers::ContinuationProblem {
       : problem_(problem), swing_(swing), masses_(problem.freeMass().diagonal().norm()) {}
 
   Vector residual(const Vector& x, double omega) override { return reduced(problem_.residual(expanded(x), omega)); }
-  double residualScale(double omega) override { return omega * omega * masses_ * swing_; }
+  /// That of the first motion: with a larger one, its frequency would not have to be right.
+  double residualScale(double omega) override { return omega * omega * masses_ * firstAmplitude * swing_; }
   Vector linearize(const Vector& x, double omega) override { return linearizeWith(x, omega, nullptr); }
   Vector linearizePrediction(const Vector& x, double omega, const solvers::BranchPoint& from, double step) override {
     const StressSource stresses{expanded(from.x), expanded(from.x + step * from.direction)};

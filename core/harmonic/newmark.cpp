@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace pliant::harmonic {
@@ -156,7 +157,10 @@ bool NewmarkIntegration::solveStep(State& next, int step) {
       roundingFloor_ = std::max(roundingFloor_, 2 * length);
       contraction_ = 0.5 * slowContraction;
     }
-    if (expected <= newtonTolerance || length <= roundingFloor_) {
+    // Soon after the start the motion may be smaller than the last digits of the positions allow to tell apart.
+    const bool lastDigits = change.lpNorm<Eigen::Infinity>() <=
+                            8 * std::numeric_limits<double>::epsilon() * next.positions.lpNorm<Eigen::Infinity>();
+    if (expected <= newtonTolerance || length <= roundingFloor_ || lastDigits) {
       next.velocities(free) = (2 / duration_ * (next.positions - now_.positions) - now_.velocities)(free);
       evaluateForce(next, step);
       return true;

@@ -36,17 +36,19 @@ double duffingFrequency(double gamma, double amplitude) {
   return a * std::sqrt(1 + stiffening);
 }
 
-/// Two unit masses between walls, springs 1, c, 1, of which the outer ones harden.
+/// Two unit masses between walls, springs 1, c, 1, of which the outer ones harden. They are so far apart that they
+/// never meet.
 std::shared_ptr<const Model> twoMasses(double coupling, double hardening) {
+  constexpr double distance = 10;
   auto model = std::make_shared<Model>();
   model->dimension = 1;
-  model->restPositions = Eigen::Vector2d(0, 1);
+  model->restPositions = Eigen::Vector2d(0, distance);
   model->gravity = Eigen::VectorXd::Zero(1);
   model->lockedCoordinates = {0, 0};
   const Eigen::VectorXd right = Eigen::VectorXd::Ones(1);
   model->energies = {mechanics::makeGroundedSpring(1, 0, Eigen::VectorXd::Zero(1), right, {{1, 0, hardening}}),
-                     mechanics::makeGroundedSpring(1, 1, right, right, {{1, 0, hardening}}),
-                     mechanics::makeSpring(1, 0, 1, 1, {{coupling}})};
+                     mechanics::makeGroundedSpring(1, 1, distance * right, right, {{1, 0, hardening}}),
+                     mechanics::makeSpring(1, 0, 1, distance, {{coupling}})};
   addPointMass(*model, "masses", {0, 1}, 1);
   model->massDamping = 0.1;
   model->forces = {{"push", {0}, right, cosine(0.3)}};
@@ -110,7 +112,7 @@ void TestBackbone::symmetricModesAreSingleOscillators() {
   const double linear = mode == 1 ? 1.0 : std::sqrt(1 + 2 * coupling);
   for (const ResponsePoint& point : backbone.points) {
     const Eigen::Index width = 2 * 15 + 1;
-    double first = 0, second = -1;
+    double first = 0, second = -10;
     for (int k = 0; k <= 15; ++k) {
       first += point.z[2 * k];
       second += point.z[width + 2 * k];

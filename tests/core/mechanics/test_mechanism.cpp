@@ -49,7 +49,7 @@ struct Lever {
     model.energies = makeRigidBar(2, model.restPositions, {0, 1}, 1e8);
     model.lockedCoordinates = {1, 1, 0, 0};
     model.pointMasses.push_back({"end", {1}, mass, 0, 0});
-    model.gravity = Eigen::Vector2d(0, -gravity);
+    model.gravity = Vector{{0, -gravity}};
   }
 
   double equilibriumAngle() {

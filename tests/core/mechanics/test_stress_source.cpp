@@ -74,6 +74,8 @@ void TestStressSource::stressesAndPositionsAreSeparate() {
   const auto mixed = [&](const Vector& at, const Vector& stress) { return hessian(assembler, at, stress, stress); };
   const Matrix sum = mixed(x, x) + mixed(y, y);
   if (mixed(x, y) == mixed(x, x)) return;  // the kind has no stresses of its own
+  QFETCH(int, kind);
+  if (mechanics::energyKinds()[kind].name == "rod 3D") return;  // its stresses act along the edge, wherever that points
   QVERIFY((mixed(x, y) + mixed(y, x) - sum).norm() <= 1e-13 * sum.norm());
 }
 

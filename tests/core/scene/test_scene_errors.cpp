@@ -48,7 +48,7 @@ class TestSceneErrors : public QObject {
         "\"skin\", \"type\": \"shell\",", "/elements/0/geometry", "2 entries");
     row("unknown study", "\"study\": \"motion\"", "\"study\": \"notion\"", "/expected/0/study",
         "did you mean \"motion\"?");
-    row("unknown type", "\"type\": \"shell\"", "\"type\": \"solid\"", "/elements/0/type", "\"solid\"");
+    row("unknown type", "\"type\": \"shell\"", "\"type\": \"shall\"", "/elements/0/type", "\"shall\"");
     row("type left out", "\"type\": \"grounded\", ", "", "/springs/2/type", "missing");
     row("type no text", "\"type\": \"grounded\"", "\"type\": 3", "/springs/2/type", "found the number 3");
     row("name twice", "\"hooks\", \"type\"", "\"sheet\", \"type\"", "/geometry/1/name", "twice");
