@@ -108,7 +108,7 @@ TetMesh makeBlocks(const std::vector<Block>& blocks, const Eigen::Vector3d& cell
 
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (blocks[b].name.empty()) continue;
-    const auto& [low, high] = boxes[b];
+    const Lattice low = boxes[b].low, high = boxes[b].high;
     forEachPoint(low, high, [&](const Lattice& at) {
       const int node = nodes.at(at);
       mesh.groups[blocks[b].name].push_back(node);

@@ -76,13 +76,13 @@ class CosineBranch final : public solvers::ContinuationProblem {
   bool ended_ = false;
 };
 
-struct LinearMode {
+struct StartMode {
   double frequency = 0;
   Vector shape;  ///< of the free coordinates
 };
 
 /// The mode with this number (from 1) about a configuration. M may be singular, K must not be.
-LinearMode linearMode(const HarmonicBalanceProblem& problem, const Vector& configuration, int number) {
+StartMode startMode(const HarmonicBalanceProblem& problem, const Vector& configuration, int number) {
   const Eigen::MatrixXd stiffness = problem.assembler().hessian(configuration);
   const Eigen::MatrixXd mass = problem.freeMass();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(mass, stiffness);
@@ -132,7 +132,7 @@ Backbone traceBackbone(const HarmonicBalanceProblem& problem, const BackboneOpti
     backbone.report.iterations.clear();
     return backbone;
   }
-  const LinearMode mode = linearMode(problem, equilibrium.positions, options.mode);
+  const StartMode mode = startMode(problem, equilibrium.positions, options.mode);
   backbone.linearFrequency = mode.frequency;
   const Vector shape = mode.shape * (options.maximumAmplitude / largestNodeLength(problem.model(), mode.shape));
   CosineBranch branch(problem, shape.norm());

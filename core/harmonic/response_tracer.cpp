@@ -10,7 +10,7 @@ namespace pliant::harmonic {
 namespace {
 
 /// How far from a crossing another curve is first looked for, in the scaled measure.
-constexpr std::array firstSteps{0.02, 0.05, 0.1};
+constexpr std::array stepsOfSearch{0.02, 0.05, 0.1};
 /// Points this close, scaled, and with frequencies this close, are the same.
 constexpr double sameMotion = 2e-3;
 constexpr double sameFrequency = 1e-4;
@@ -104,7 +104,7 @@ void ResponseTracer::follow(std::size_t crossing) {
   for (const double side : {1.0, -1.0}) {
     // Half a period later, a motion of twice the period is on the other side.
     if (side < 0 && origin.kind == PointKind::periodDoubling) break;
-    for (const double step : firstSteps) {
+    for (const double step : stepsOfSearch) {
       Curve curve{departure->problem, curves_ + 1, origin.depth, &origin, twin ? &*twin : nullptr};
       solvers::ContinuationOptions continuation = continuationOptions();
       continuation.startDirection = side * departure->direction;
@@ -141,7 +141,7 @@ base::SolverReport ResponseTracer::trace(Curve& curve, const solvers::Continuati
   const auto emitPoint = [&](TrackedPoint&& tracked) { emit(curve, std::move(tracked)); };
   StabilityTracker tracker({stability, between, emitPoint}, options_.locationTolerance);
   const bool probes = !problem_->model().probes.empty();
-  const base::SolverReport report =
+  base::SolverReport report =
       solver.trace(z, omega, context_, [&](const solvers::BranchPoint& at, solvers::BranchEvent event, int monitor) {
         if (receive(curve, at, tracker))
           tracker.add(at, kindOf(event), probes ? monitor : -1);

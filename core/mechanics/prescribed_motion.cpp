@@ -55,9 +55,9 @@ class Rotation final : public PrescribedMotion {
   PeriodicSignal signal_;
 };
 
-class FrameRotation final : public PrescribedMotion {
+class TurningFrame final : public PrescribedMotion {
  public:
-  FrameRotation(int firstCoordinate, Eigen::Vector3d scaledAxis, PeriodicSignal signal)
+  TurningFrame(int firstCoordinate, Eigen::Vector3d scaledAxis, PeriodicSignal signal)
       : coordinates_{firstCoordinate, firstCoordinate + 1, firstCoordinate + 2},
         scaledAxis_(std::move(scaledAxis)),
         signal_(std::move(signal)) {}
@@ -113,7 +113,7 @@ std::shared_ptr<const PrescribedMotion> makeFrameRotation(int firstCoordinate, d
   for (const PeriodicSignal::Term& term : signal.terms) largest += std::abs(term.amplitude);
   if (largest >= M_PI) throw base::InputError("", "a rotation of rods must stay below 180 degrees");
   axis.stableNormalize();
-  return std::make_shared<FrameRotation>(firstCoordinate, 4 * frameLength * axis, std::move(signal));
+  return std::make_shared<TurningFrame>(firstCoordinate, 4 * frameLength * axis, std::move(signal));
 }
 
 std::shared_ptr<const PrescribedMotion> makeScalarDrive(int coordinate, double lever, PeriodicSignal signal) {

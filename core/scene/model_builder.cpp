@@ -197,7 +197,7 @@ class Builder {
   }
 
   void addDrive(const Json& entry, const std::string& pointer) {
-    std::vector<int> nodes = nodesAt(entry, pointer);
+    const std::vector<int> nodes = nodesAt(entry, pointer);
     for (const int node : nodes) {
       const auto& locked = model_.lockedCoordinates;
       const auto first = locked.begin() + node * dimension_;
@@ -208,14 +208,14 @@ class Builder {
     if (entry["type"] == "translation") {
       for (const NodeFrame& frame : framesOf(nodes)) lockFrame(frame);
       model_.drives.push_back(mechanics::makeTranslation(
-          std::move(nodes), toVector(entry["direction"]).stableNormalized(), toSignal(entry["harmonics"])));
+          nodes, toVector(entry["direction"]).stableNormalized(), toSignal(entry["harmonics"])));
     } else {
       const Eigen::Vector3d axis = toVector(entry["axis"]);
       for (const NodeFrame& frame : framesOf(nodes))
         model_.drives.push_back(
             mechanics::makeFrameRotation(frame.firstCoordinate, frame.length, axis, toSignal(entry["harmonics"])));
       model_.drives.push_back(mechanics::makeRotation(
-          std::move(nodes), toVector(entry["center"]), axis.stableNormalized(), toSignal(entry["harmonics"])));
+          nodes, toVector(entry["center"]), axis.stableNormalized(), toSignal(entry["harmonics"])));
     }
   }
 

@@ -56,7 +56,7 @@ Json ModesResult::summary() const {
     for (const mechanics::Probe& probe : model.probes) {
       Json shape = Json::array();
       for (int axis = 0; axis < model.dimension; ++axis) {
-        const int free = model.dofs.freeIndex[static_cast<std::size_t>(probe.node * model.dimension + axis)];
+        const int free = model.dofs.freeIndex[probe.node * model.dimension + axis];
         shape.push_back(free < 0 ? 0.0 : mode.shape[free]);
       }
       probes.push_back({{"name", probe.name}, {"shape", shape}});

@@ -42,7 +42,7 @@ void Arnoldi::extend(int steps) {
 
 RitzPairs Arnoldi::ritzPairs() const {
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(hessenberg_.topLeftCorner(dimension_, dimension_));
-  const Eigen::VectorXcd values = eigen.eigenvalues();
+  const Eigen::VectorXcd& values = eigen.eigenvalues();
   const Eigen::MatrixXcd vectors = eigen.eigenvectors();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(dimension_));
   std::iota(order.begin(), order.end(), 0);

@@ -41,11 +41,17 @@ class Defaults {
   Json make(const std::string& list, const std::string& type) const {
     if (list == "geometry") return geometry(type);
     if (list == "materials") return {{"density", "1200 kg/m^3"}, {"young_modulus", "3 GPa"}, {"poisson_ratio", 0.35}};
-    if (list == "elements") return element();
+    if (list == "elements") return element(type);
+    if (list == "parameters") return parameter();
     if (list == "point_masses") return {{"at", at(node_)}, {"mass", mass()}};
     if (list == "springs") return spring(type);
     if (list == "boundary_conditions" || list == "probes") return {{"at", at(node_)}};
     if (list == "drives") {
+      if (type == "servo") {
+        Json entry = joint();
+        entry["harmonics"] = Json::array({{{"amplitude", "5 deg"}}});
+        return entry;
+      }
       if (type == "rotation") return {{"at", at(node_)}, {"harmonics", Json::array({{{"amplitude", "5 deg"}}})}};
       return {{"at", at(node_)}, {"direction", lastAxis(1)}, {"harmonics", Json::array({{{"amplitude", "1 mm"}}})}};
     }
@@ -86,23 +92,61 @@ class Defaults {
       for (int axis = 0; axis < model_.dimension; ++axis) place.push_back(axis == 0 ? x : axis == 1 ? y : 0.0);
       return place;
     };
+    if (type == "blocks")
+      return {{"cell", Json::array({"10 mm", "10 mm", "10 mm"})},
+              {"blocks", Json::array({{{"name", "block"},
+                                       {"minimum", Json::array({0, 0, 0})},
+                                       {"maximum", Json::array({"50 mm", "20 mm", "20 mm"})}}})}};
     if (type == "mesh")
       return {{"points", Json::array({point(0, 0), point(0.1, 0), point(0, 0.1)})},
               {"triangles", Json::array({Json::array({0, 1, 2})})}};
     return {{"points", Json::array({point(0, 0)})}};
   }
 
-  Json element() const {
+  /// The node `others` further than the selected one, going around.
+  int next(int others) const { return (node_ + others) % model_.nodeCount(); }
+
+  /// A joint at the selected node between the links to the next two.
+  Json joint() const { return {{"joint", at(node_)}, {"from", at(next(1))}, {"to", at(next(2))}}; }
+
+  /// The first number of the scene that shapes the model.
+  Json parameter() const {
+    for (const char* pointer : {"/elements/0/thickness", "/elements/0/diameter", "/springs/0/coefficients/0",
+                                "/materials/0/young_modulus", "/drives/0/harmonics/0/amplitude"})
+      if (scene_.contains(Json::json_pointer(pointer))) return {{"pointer", pointer}};
+    return {{"pointer", "/damping/mass_proportional"}, {"minimum", 0}, {"maximum", 1}};
+  }
+
+  Json element(const std::string& type) const {
     Json entry = Json::object();
+    if (type == "link") return {{"joints", Json::array({0, 1})}};
+    if (type == "rigid_angle") return {{"joints", Json::array({0, 1, 2})}};
     // A body on the newest geometry: the earlier ones have theirs.
     for (const auto& [key, list] : {std::pair{"geometry", "geometry"}, std::pair{"material", "materials"}})
       if (scene_.at(list).size() > 1) entry[key] = scene_.at(list).back().at("name");
-    entry["thickness"] = "0.5 mm";
+    if (type == "rod") {
+      entry["diameter"] = "1 mm";
+    } else if (type == "flat_rod") {
+      entry["width"] = "5 mm";
+      entry["height"] = "1 mm";
+      entry["director"] = lastAxis(1);
+    } else if (type != "solid") {
+      entry["thickness"] = "0.5 mm";
+    }
     return entry;
   }
 
   Json spring(const std::string& type) const {
     const Json coefficients = Json::array({"100 N/m"});
+    if (type == "torsion") {
+      Json entry = joint();
+      entry["stiffness"] = "0.1 N m/rad";
+      return entry;
+    }
+    if (type == "local")
+      return {{"from", {{"type", "node"}, {"at", at(node_)}}},
+              {"to", {{"type", "node"}, {"at", at(next(1))}}},
+              {"coefficients", coefficients}};
     if (type == "between")
       return {{"from", at(node_)},
               {"to", at(node_ + 1 < model_.nodeCount() ? node_ + 1 : 0)},

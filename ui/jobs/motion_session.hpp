@@ -28,7 +28,8 @@ struct ShownMotion {
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< null as long as it is computed
   std::string study;  ///< whose result it is; empty if it was solved by itself
   int point = -1;     ///< on that study's curve
-  /// Whether it solves the driven model: a linear response and a free motion do not, and nothing is predicted from them.
+  /// Whether it solves the driven model: a linear response and a free motion do not, and nothing is predicted from
+  /// them.
   bool solvesDrivenModel = true;
 };
 

@@ -21,8 +21,8 @@ enum Column { hertzColumn, radiansColumn, dampingColumn, residualColumn, columnC
 double swingOf(const QSlider& slider) { return 0.3 * slider.value() / slider.maximum(); }
 
 double extentOf(const mechanics::Model& model) {
-  const auto nodes = model.restPositions.head(model.nodeCount() * model.dimension)
-                         .reshaped(model.dimension, model.nodeCount());
+  const auto nodes =
+      model.restPositions.head(model.nodeCount() * model.dimension).reshaped(model.dimension, model.nodeCount());
   const double extent = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
   return extent > 0 ? extent : 1;
 }
@@ -137,9 +137,9 @@ void ModesPanel::play() {
   if (played_ < 0 || !result_) return;
   const harmonic::LinearMode& mode = result_->modes.modes.at(static_cast<std::size_t>(played_));
   const double swing = swingOf(*swing_) * extentOf(result_->problem->model());
-  Q_EMIT modeChosen(result_->problem, result_->motion(static_cast<std::size_t>(played_), swing),
-                    tr("mode %1 of the linear analysis, %2 Hz").arg(played_ + 1).arg(
-                        mode.omega / (2 * std::numbers::pi), 0, 'g', 5));
+  Q_EMIT modeChosen(
+      result_->problem, result_->motion(static_cast<std::size_t>(played_), swing),
+      tr("mode %1 of the linear analysis, %2 Hz").arg(played_ + 1).arg(mode.omega / (2 * std::numbers::pi), 0, 'g', 5));
 }
 
 void ModesPanel::leave() {
