@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <complex>
 #include <functional>
@@ -53,6 +54,22 @@ struct OscillatorOracle {
     std::vector<std::complex<double>> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
     return sorted;
+  }
+
+  /// The start of the periodic motion near `start`, by shooting: a series cut at some harmonic is not exactly on it.
+  Eigen::VectorXd orbit(Eigen::VectorXd start, double omega) const {
+    const Eigen::Index n = start.size();
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
+    for (int iteration = 0; iteration < 10; ++iteration) {
+      Eigen::MatrixXd y(n, n + 1);
+      y << start, identity;
+      const Eigen::MatrixXd end = period(y, omega);
+      const Eigen::VectorXd gap = end.col(0) - start;
+      const Eigen::MatrixXd slope = end.rightCols(n) - identity;
+      start -= slope.partialPivLu().solve(gap);
+      if (gap.norm() < 1e-11) break;
+    }
+    return start;
   }
 
   int unstableCount(const Eigen::VectorXd& start, double omega) const {
