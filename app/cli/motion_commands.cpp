@@ -108,6 +108,7 @@ ExitStatus render(const MotionOptions& options, const std::string& size) {
     throw InputError("--size", "Expected WIDTHxHEIGHT, such as 1280x720, found " + scene::quote(size) + ".");
   const Moment moment = findMoment(options);
   picture.caption = moment.caption;
+  if (moment.model->dimension < 3) picture.view = render::AxisView::top;  // as in the window
   render::renderToPng(moment.model, moment.problem, moment.z, moment.tau, picture, options.out);
   std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
   return done;
