@@ -1,11 +1,10 @@
 #include "core/harmonic/backbone.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/harmonic/linear_modes.hpp"
 #include "core/solvers/continuation_solver.hpp"
-#include "core/solvers/static_equilibrium.hpp"
 
 namespace pliant::harmonic {
 
@@ -76,22 +75,6 @@ class CosineBranch final : public solvers::ContinuationProblem {
   bool ended_ = false;
 };
 
-struct StartMode {
-  double frequency = 0;
-  Vector shape;  ///< of the free coordinates
-};
-
-/// The mode with this number (from 1) about a configuration. M may be singular, K must not be.
-StartMode startMode(const HarmonicBalanceProblem& problem, const Vector& configuration, int number) {
-  const Eigen::MatrixXd stiffness = problem.assembler().hessian(configuration);
-  const Eigen::MatrixXd mass = problem.freeMass();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(mass, stiffness);
-  const Eigen::Index column = stiffness.cols() - number;
-  if (eigen.info() != Eigen::Success || column < 0 || !(eigen.eigenvalues()[column] > 0))
-    throw base::InputError("", "the model has no mode " + std::to_string(number) + " about its static equilibrium");
-  return {1 / std::sqrt(eigen.eigenvalues()[column]), eigen.eigenvectors().col(column)};
-}
-
 /// Largest length of a node's part of a displacement of the free coordinates.
 double largestNodeLength(const Model& model, const Vector& displacement) {
   Vector squares = Vector::Zero(model.nodeCount());
@@ -125,36 +108,38 @@ HarmonicBalanceProblem freeProblem(const HarmonicBalanceProblem& problem) {
 Backbone traceBackbone(const HarmonicBalanceProblem& problem, const BackboneOptions& options,
                        base::ExecutionContext& context, const std::function<void(const ResponsePoint&)>& onPoint) {
   Backbone backbone;
-  const solvers::StaticEquilibrium equilibrium = solvers::solveStaticEquilibrium(
-      problem.model(), problem.assembler(), problem.steadyConfiguration(), problem.steadyForce(), {}, context);
-  if (!equilibrium.report.converged()) {
-    backbone.report = equilibrium.report;
+  const LinearModes linear = computeLinearModes(problem, {.count = options.mode}, context);
+  if (!linear.report.converged()) {
+    backbone.report = linear.report;
     backbone.report.iterations.clear();
     return backbone;
   }
-  const StartMode mode = startMode(problem, equilibrium.positions, options.mode);
-  backbone.linearFrequency = mode.frequency;
+  if (static_cast<int>(linear.modes.size()) < options.mode)
+    throw base::InputError(
+        "", "the model has no mode " + std::to_string(options.mode) + " about its static equilibrium");
+  const LinearMode& mode = linear.modes.back();
+  backbone.linearFrequency = mode.omega;
   const Vector shape = mode.shape * (options.maximumAmplitude / largestNodeLength(problem.model(), mode.shape));
   CosineBranch branch(problem, shape.norm());
   Vector swing = Vector::Zero(problem.size());
   for (Eigen::Index f = 0; f < shape.size(); ++f) swing[f * problem.basis().size() + 2] = shape[f];
 
   solvers::ContinuationOptions continuation;
-  continuation.lower = mode.frequency / widestFrequencyRatio;
-  continuation.upper = mode.frequency * widestFrequencyRatio;
+  continuation.lower = mode.omega / widestFrequencyRatio;
+  continuation.upper = mode.omega * widestFrequencyRatio;
   continuation.startDirection = branch.reduced(swing);
   continuation.stateScale = shape.norm();
-  continuation.parameterScale = mode.frequency;
+  continuation.parameterScale = mode.omega;
   continuation.minimumStep = continuation.initialStep / 4096;
   continuation.maximumStep = 1.0 / 40;
   continuation.tolerance = options.newton.tolerance;
   continuation.stepTolerance = options.newton.stepTolerance;
   continuation.maximumPoints = options.maximumPoints;
   solvers::ContinuationSolver solver(branch, continuation);
-  const Vector rest = problem.constantCoefficients(equilibrium.positions);
+  const Vector rest = problem.constantCoefficients(linear.equilibrium);
   const Vector start = branch.reduced(rest + firstAmplitude * swing);
-  backbone.report = solver.trace(
-      start, mode.frequency, context, [&](const solvers::BranchPoint& at, solvers::BranchEvent event, int) {
+  backbone.report =
+      solver.trace(start, mode.omega, context, [&](const solvers::BranchPoint& at, solvers::BranchEvent event, int) {
         ResponsePoint point;
         point.kind = event == solvers::BranchEvent::fold ? PointKind::fold : PointKind::regular;
         point.omega = at.parameter;
