@@ -37,7 +37,10 @@ struct SwingingFork {
     made.elementMass = std::make_shared<mechanics::SparseMatrix>(made.coordinateCount(), made.coordinateCount());
     made.pointMasses = {{"left", {leftTip}, 0.002, 0, 0.02}, {"right", {rightTip}, 0.01, 0, 0.02}};
     made.probes = {{"left tip", leftTip}, {"right tip", rightTip}};
-    made.parts = {{"fork", 0, static_cast<int>(mesh.points.cols()), mesh.triangles, {}, {}}};
+    mechanics::DisplayPart& part = made.parts.emplace_back();
+    part.name = "fork";
+    part.nodeCount = static_cast<int>(mesh.points.cols());
+    part.triangles = mesh.triangles;
     made.drives = {mechanics::makeTranslation(
         mesh.groups.at("base"), mechanics::Vector::Unit(3, 2), {.terms = {{1, 0.004, 0.0}}})};
     made.finish();
