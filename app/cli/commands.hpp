@@ -32,6 +32,17 @@ struct MotionOptions {
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
 
+/// Which results to plot.
+struct PlotOptions {
+  std::string scene;
+  std::string result;                ///< folder that `run` wrote
+  std::vector<std::string> studies;  ///< empty: all that have a result
+  std::string quantity = "path-length";
+  bool logarithmic = false;  ///< the values of response curves
+  std::string out;
+};
+ExitStatus plot(const PlotOptions& options, const std::string& size);
+
 /// The JSON Schema, or the tables of scenes/README.md.
 ExitStatus schema(bool tables);
 

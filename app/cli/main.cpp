@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.hpp"
 #include "core/base/error.hpp"
+#include "core/scene/result_charts.hpp"
 
 namespace pliant::cli {
 namespace {
@@ -58,6 +59,20 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--out", motion.out, "PNG file")->required();
   verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
   verb->callback([&] { status = render(motion, size); });
+
+  PlotOptions plotOptions;
+  verb = program.add_subcommand("plot", "Draw response curves and comparisons of methods, without a display");
+  addScene(verb, plotOptions.scene);
+  verb->add_option("--result", plotOptions.result, "Folder that `run` wrote")->required();
+  verb->add_option("--study", plotOptions.studies, "Study to plot; may be repeated; else all that have a result")
+      ->allow_extra_args(false);
+  verb->add_option("--quantity", plotOptions.quantity, "What response curves show")
+      ->check(CLI::IsMember(scene::responseQuantities()))
+      ->capture_default_str();
+  verb->add_flag("--log", plotOptions.logarithmic, "Show it on a logarithmic axis");
+  verb->add_option("--out", plotOptions.out, "PNG file")->required();
+  verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
+  verb->callback([&] { status = plot(plotOptions, size); });
 
   verb = program.add_subcommand("export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF");
   addMotion(verb, motion);

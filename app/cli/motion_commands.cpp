@@ -8,8 +8,10 @@
 #include "core/base/error.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/result_charts.hpp"
 #include "core/scene/study.hpp"
 #ifdef PLIANT_HAS_RENDERER
+#include "ui/render/chart_picture.hpp"
 #include "ui/render/offscreen.hpp"
 #endif
 
@@ -100,12 +102,21 @@ ExitStatus exportMesh(const MotionOptions& options) {
 
 #ifdef PLIANT_HAS_RENDERER
 
-ExitStatus render(const MotionOptions& options, const std::string& size) {
+namespace {
+
+render::PictureOptions pictureOf(const std::string& size) {
   render::PictureOptions picture;
   int used = 0;
   if (std::sscanf(size.c_str(), "%5dx%5d%n", &picture.width, &picture.height, &used) != 2 ||
       static_cast<std::size_t>(used) != size.size())
     throw InputError("--size", "Expected WIDTHxHEIGHT, such as 1280x720, found " + scene::quote(size) + ".");
+  return picture;
+}
+
+}  // namespace
+
+ExitStatus render(const MotionOptions& options, const std::string& size) {
+  render::PictureOptions picture = pictureOf(size);
   const Moment moment = findMoment(options);
   picture.caption = moment.caption;
   if (moment.model->dimension < 3) picture.view = render::AxisView::top;  // as in the window
@@ -114,10 +125,24 @@ ExitStatus render(const MotionOptions& options, const std::string& size) {
   return done;
 }
 
+ExitStatus plot(const PlotOptions& options, const std::string& size) {
+  const render::PictureOptions picture = pictureOf(size);
+  const auto scene = scene::Scene::load(options.scene);
+  auto charts = scene::resultCharts(scene, options.result, options.studies, options.quantity);
+  for (scene::ResultChart& chart : charts) chart.logarithmicY |= options.logarithmic;
+  render::drawCharts(charts, picture.width, picture.height, picture.theme, options.out);
+  std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
+  return done;
+}
+
 #else
 
 ExitStatus render(const MotionOptions&, const std::string&) {
   throw InputError("render", "This build of pliant-cli has no renderer; build with PLIANT_BUILD_UI.");
+}
+
+ExitStatus plot(const PlotOptions&, const std::string&) {
+  throw InputError("plot", "This build of pliant-cli has no renderer; build with PLIANT_BUILD_UI.");
 }
 
 #endif

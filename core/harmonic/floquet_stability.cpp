@@ -19,8 +19,11 @@ constexpr int stepsAtOnce = 8;
 constexpr int mostSteps = 200;
 /// All exponents this close to zero are found: the strip |Im ρ| <= 1/2, which holds one copy of each, and more.
 constexpr double searchRadius = 0.75;
-constexpr double exponentTolerance = 1e-8;  ///< relative, of the exponents found
-constexpr double outsideTolerance = 1e-3;   ///< of the next one beyond: proof that none nearer was missed
+/// Errors of the exponents found, of which the stability must not depend: relative to their modulus, and to the real
+/// part whose sign matters.
+constexpr double exponentTolerance = 1e-8;
+constexpr double realPartTolerance = 1e-3;
+constexpr double outsideTolerance = 1e-3;  ///< of the next one beyond: proof that none nearer was missed
 /// Exponents with Im ρ = 1/2 (negative multipliers) are only that exact with infinitely many harmonics.
 constexpr double stripMargin = 0.01;
 /// Of the energy of a disturbance that may be in the highest harmonic for its exponent to count.
@@ -84,7 +87,12 @@ class HillSearch {
   }
 
  private:
-  bool converged(Eigen::Index i) const { return pairs_.errors[i] <= exponentTolerance * std::abs(pairs_.values[i]); }
+  bool converged(Eigen::Index i) const {
+    // ρ and 1/ρ have real parts of one sign and, relative to their moduli, of one size.
+    const double needed =
+        std::max(exponentTolerance * std::abs(pairs_.values[i]), realPartTolerance * std::abs(pairs_.values[i].real()));
+    return pairs_.errors[i] <= needed;
+  }
 
   bool settled() const {
     for (Eigen::Index i = 0; i < pairs_.values.size(); ++i) {

@@ -21,9 +21,20 @@ bool JacobianSolver::factorize() {
 Matrix JacobianSolver::solve(const Matrix& b) const {
   const base::Stopwatch watch;
   Matrix x = factorization_->solve(b);
-  problem_.cost().solves += static_cast<int>(b.cols());
-  problem_.cost().solveSeconds += watch.seconds();
+  countSolves(b.cols(), watch.seconds());
   return x;
+}
+
+Matrix JacobianSolver::solveRoughly(const Matrix& b) const {
+  const base::Stopwatch watch;
+  Matrix x = factorization_->solveRoughly(b);
+  countSolves(b.cols(), watch.seconds());
+  return x;
+}
+
+void JacobianSolver::countSolves(Eigen::Index count, double seconds) const {
+  problem_.cost().solves += static_cast<int>(count);
+  problem_.cost().solveSeconds += seconds;
 }
 
 }  // namespace pliant::harmonic

@@ -19,6 +19,8 @@ class JacobianSolver {
   bool factorize();
   /// Solves with the factors last computed, which may belong to an earlier linearisation.
   Matrix solve(const Matrix& b) const;
+  /// The same to about half the digits, for half the price.
+  Matrix solveRoughly(const Matrix& b) const;
   /// ∂h/∂z, last linearised, times v.
   Vector multiply(const Vector& v) const { return jacobian_ * v; }
 
@@ -27,6 +29,8 @@ class JacobianSolver {
   std::shared_ptr<const math::SparseFactorization> factorization() const { return factorization_; }
 
  private:
+  void countSolves(Eigen::Index count, double seconds) const;
+
   const HarmonicBalanceProblem& problem_;
   SparseMatrix jacobian_;
   std::shared_ptr<math::SparseFactorization> factorization_;

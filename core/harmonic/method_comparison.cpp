@@ -72,11 +72,14 @@ class Comparison {
     return true;
   }
 
+  /// Few harmonics may have no motion at all, where a foil cannot bend with them unstretched; the most must have one.
   bool balance() {
-    for (const int harmonics : options_.harmonics)
-      if (!solve(harmonics, std::max(options_.samples, 4 * harmonics + 1), false, finest_, finestHarmonics_))
-        return false;
-    return true;
+    bool solved = false;
+    for (const int harmonics : options_.harmonics) {
+      solved = solve(harmonics, std::max(options_.samples, 4 * harmonics + 1), false, finest_, finestHarmonics_);
+      if (context_.cancelRequested()) return false;
+    }
+    return solved;
   }
 
   bool integrate() {
@@ -113,6 +116,7 @@ class Comparison {
     const Eigen::RowVectorXd mean = reference_.colwise().mean();
     result_.swing = std::sqrt((reference_.rowwise() - mean).squaredNorm() / times_);
     for (std::size_t i = 0; i < result_.solutions.size(); ++i) {
+      if (positions_[i].size() == 0) continue;
       result_.solutions[i].toNewmark = meanDistance(positions_[i], newmark_.back());
       result_.solutions[i].toReference = meanDistance(positions_[i], reference_);
     }

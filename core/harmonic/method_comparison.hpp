@@ -32,13 +32,14 @@ struct ComparedSolution {
 
 struct MethodComparison {
   std::vector<ComparedSolution> solutions;
-  double swing = 0;  ///< √(mean of ‖x - mean x‖²) of the reference [m]
+  double swing = 0;  ///< √(mean of ‖x - mean x‖²) of the reference [m]; 0 if there is none to compare with
   base::SolverReport report;
 };
 
 /// Harmonic balance against Newmark's method at one frequency, as in Figs. 2.3 (more harmonics) and 2.15 (more samples
 /// and steps). Each harmonic balance starts at the one before, and each integration at the motion with the most
-/// harmonics, so all are of one motion. The reference is Richardson's extrapolation of the two finest integrations,
+/// harmonics, so all are of one motion. Numbers of harmonics that have no motion, but for the last, are named in the
+/// report's message and make no failure. The reference is Richardson's extrapolation of the two finest integrations,
 /// whose errors of second order in the step cancel; the finest integration if there is one alone. Throws
 /// base::InputError if the lists are empty, not ascending, or no multiples.
 MethodComparison compareMethods(std::shared_ptr<const Model> model, double omega,

@@ -5,6 +5,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/jacobian_solver.hpp"
+#include "core/harmonic/response_branch.hpp"
 #include "core/solvers/continuation_solver.hpp"
 #include "core/solvers/newton_solver.hpp"
 #include "core/solvers/static_equilibrium.hpp"
@@ -93,7 +94,7 @@ class MotionSearch {
     bool done = false;
     if (start.size() > 0) done = newtonFrom(start, {});
     if (!done && findSteadyState())
-      done = newtonFrom(linearResponse(), steady_) || (options_.startScale == 1 && rampDrive());
+      done = newtonFrom(linearResponse(), steady_) || (options_.startScale == 1 && (rampDrive() || followFrequency()));
     motion_.factorization = solver_.factorization();
     motion_.report.seconds = watch.seconds();
     return std::move(motion_);
@@ -162,6 +163,49 @@ class MotionSearch {
     motion_.report.termination = motion_.report.converged() ? TerminationType::failed : motion_.report.termination;
     motion_.report.message = "No periodic motion was found, neither by Newton's method nor by ramping the drive up.";
     return false;
+  }
+
+  /// From a frequency below, where the response is small, along the response curve to this one: resonances are reached
+  /// that way which a drive ramped up at one frequency misses.
+  bool followFrequency() {
+    context_.log(base::Severity::information, "The motion is sought along the response from lower frequencies.");
+    const base::SolverReport failure = motion_.report;
+    for (const double share : {0.8, 0.6, 0.4}) {
+      MotionSearch below(problem_, share * omega_, options_, context_);
+      if (below.findSteadyState() && below.newtonFrom(below.linearResponse(), below.steady_) &&
+          below.motion_.report.converged() && followFrom(below.motion_))
+        return true;
+      if (context_.cancelRequested()) {
+        motion_.report.termination = TerminationType::cancelled;
+        return true;
+      }
+    }
+    motion_.report = failure;
+    motion_.report.message =
+        "No periodic motion was found by Newton's method, by ramping the drive up, or along the response from lower "
+        "frequencies.";
+    return false;
+  }
+
+  bool followFrom(const PeriodicMotion& start) {
+    ResponseBranch branch(problem_);
+    solvers::ContinuationOptions continuation;
+    continuation.lower = 0.5 * start.omega;
+    continuation.upper = omega_;
+    continuation.stateScale = std::max(problem_.oscillation(start.z).norm(), 1e-9 * start.z.norm());
+    continuation.parameterScale = omega_ - start.omega;
+    continuation.initialStep = 0.02;
+    continuation.targetAngle = 0.4;
+    continuation.maximumAngle = 1.2;
+    continuation.tolerance = options_.tolerance;
+    continuation.stepTolerance = options_.stepTolerance;
+    continuation.maximumPoints = options_.maximumRampSteps;
+    solvers::ContinuationSolver solver(branch, continuation);
+    solvers::BranchPoint last;
+    const base::SolverReport report =
+        solver.trace(start.z, start.omega, context_,
+                     [&](const solvers::BranchPoint& point, solvers::BranchEvent, int) { last = point; });
+    return report.converged() && last.parameter == omega_ && newtonFrom(last.x, {});
   }
 
   HarmonicBalanceProblem& problem_;

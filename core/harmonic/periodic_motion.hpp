@@ -26,7 +26,8 @@ struct PeriodicMotion {
 };
 
 /// Newton's method with a line search from `start`. Without one, or where it fails: from the static equilibrium under
-/// the steady load plus the linear response to the drive; where that fails too, the drive is ramped up by continuation.
+/// the steady load plus the linear response to the drive; where that fails too, the drive is ramped up by continuation,
+/// and at last the response is followed from lower frequencies.
 /// Fails with a sentence that names a node and an axis if nothing holds the model there at rest.
 PeriodicMotion solvePeriodicMotion(HarmonicBalanceProblem& problem, double omega, const PeriodicMotionOptions& options,
                                    base::ExecutionContext& context, const Vector& start = {});

@@ -69,6 +69,7 @@ struct SparseFactorization::Implementation {
   std::optional<SupernodalFactorization> blocks;
   std::optional<UmfpackFactorization> umfpack;
   bool usesBlocks = false;
+  bool trusted = false;  ///< the blocks' factors, without refinement
   bool regular = false;
 
   void solveOnce(bool transposed, const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const {
@@ -95,6 +96,13 @@ struct SparseFactorization::Implementation {
     return x;
   }
 
+  Eigen::MatrixXd solveRoughly(const Eigen::MatrixXd& b) const {
+    if (!trusted) return solve(false, b);
+    Eigen::MatrixXd x;
+    solveOnce(false, b, x);
+    return x;
+  }
+
   double backwardError(const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) const {
     const double matrixNorm = (matrix.cwiseAbs() * Eigen::VectorXd::Ones(matrix.cols())).maxCoeff();
     const Eigen::MatrixXd difference = residual(matrix, *pattern, false, x, b);
@@ -110,11 +118,12 @@ struct SparseFactorization::Implementation {
   /// The blocks' factors, or else UMFPACK's, and whether the matrix is regular.
   bool factorize() {
     double pivotRatio = 0;
+    trusted = false;
     usesBlocks = blocks.has_value();
     if (usesBlocks) {
       pivotRatio = blocks->factorize(matrix.valuePtr());
-      usesBlocks = pivotRatio > 0 && ((pivotRatio > safePivotRatio && blocks->largestMultiplier() < safeMultiplier) ||
-                                      solvesAccurately());
+      trusted = pivotRatio > safePivotRatio && blocks->largestMultiplier() < safeMultiplier;
+      usesBlocks = pivotRatio > 0 && (trusted || solvesAccurately());
     }
     if (!usesBlocks) {
       const Eigen::Map<const Eigen::ArrayXd> values(matrix.valuePtr(), matrix.nonZeros());
@@ -201,6 +210,11 @@ Eigen::MatrixXd SparseFactorization::solve(const Eigen::MatrixXd& b) const {
 Eigen::MatrixXd SparseFactorization::solveTransposed(const Eigen::MatrixXd& b) const {
   assert(implementation_->regular && b.rows() == implementation_->matrix.rows());
   return implementation_->solve(true, b);
+}
+
+Eigen::MatrixXd SparseFactorization::solveRoughly(const Eigen::MatrixXd& b) const {
+  assert(implementation_->regular && b.rows() == implementation_->matrix.rows());
+  return implementation_->solveRoughly(b);
 }
 
 double SparseFactorization::backwardError(const Eigen::MatrixXd& x, const Eigen::MatrixXd& b) const {

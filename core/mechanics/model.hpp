@@ -48,12 +48,6 @@ struct Probe {
   int node = 0;
 };
 
-/// What a spring holds a node to: a place that does not move.
-struct Tether {
-  int node = -1;
-  Vector anchor;  ///< size dimension [m]
-};
-
 /// A point that moves with some nodes (or a fixed place): constant + Σ (weight x + turnedWeight Jx) of their positions
 /// x, with J the quarter turn counter-clockwise in 2 dimensions.
 struct AttachmentPoint {
@@ -61,9 +55,12 @@ struct AttachmentPoint {
     int node;
     double weight;
     double turnedWeight;
+    bool operator==(const Term&) const = default;
   };
   std::vector<Term> terms;
   Vector constant;  ///< size dimension [m]
+
+  bool operator==(const AttachmentPoint& other) const { return terms == other.terms && constant == other.constant; }
 };
 
 /// Where the coordinates of one geometry of the scene stand, and what to draw of it.
@@ -71,10 +68,10 @@ struct DisplayPart {
   std::string name;
   int firstNode = 0;
   int nodeCount = 0;
-  std::vector<std::array<int, 3>> triangles;                    ///< global node indices
-  std::vector<std::array<int, 2>> segments;                     ///< springs between nodes, and links
-  std::vector<Tether> tethers;                                  ///< springs to fixed places
-  std::vector<std::array<AttachmentPoint, 2>> attachedSprings;  ///< springs between points of links
+  std::vector<std::array<int, 3>> triangles;            ///< global node indices
+  std::vector<std::array<int, 2>> segments;             ///< links and rods, global node indices
+  std::vector<std::array<AttachmentPoint, 2>> springs;  ///< from end to end
+  std::vector<std::array<AttachmentPoint, 2>> arms;     ///< what is rigid between a link and a spring's end beside it
 };
 
 /// Which coordinates are unknown.

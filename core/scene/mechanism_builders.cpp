@@ -1,6 +1,7 @@
 #include "core/scene/mechanism_builders.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/mechanism.hpp"
@@ -42,14 +43,19 @@ int nodeOf(const MechanismContext& context, const Json& entry, const char* key, 
   return selectNode(entry[key], pointer + "/" + key, context.geometries);
 }
 
-/// One end of a local spring.
-AttachmentPoint endOf(const MechanismContext& context, const Json& end, const std::string& pointer) {
+/// One end of a local spring, and the point of its link that is nearest to it.
+struct SpringEnd {
+  AttachmentPoint point;
+  std::optional<AttachmentPoint> nearestOfLink;
+};
+
+SpringEnd endOf(const MechanismContext& context, const Json& end, const std::string& pointer) {
   const int dimension = context.model.dimension;
   if (end["type"] == "node")
-    return mechanics::attachedToNode(dimension, selectNode(end["at"], pointer + "/at", context.geometries));
+    return {mechanics::attachedToNode(dimension, selectNode(end["at"], pointer + "/at", context.geometries)), {}};
   if (end["type"] == "place") {
     const auto place = end["position"].get<std::vector<double>>();
-    return mechanics::fixedPlace(Vector::Map(place.data(), dimension));
+    return {mechanics::fixedPlace(Vector::Map(place.data(), dimension)), {}};
   }
   const Json& elements = context.scene["elements"];
   const auto link =
@@ -58,9 +64,18 @@ AttachmentPoint endOf(const MechanismContext& context, const Json& end, const st
     throw InputError(pointer + "/link", "The element " + quote(end["link"].get<std::string>()) + " is no link.");
   const auto geometry = std::find_if(context.geometries.begin(), context.geometries.end(),
                                      [&](const PlacedGeometry& g) { return g.name == (*link)["geometry"]; });
-  const int first = geometry->firstNode;
-  return mechanics::attachedToLink(dimension, context.model.restPositions, first + (*link)["joints"][0].get<int>(),
-                                   first + (*link)["joints"][1].get<int>(), end["along"], end["across"]);
+  const int a = geometry->firstNode + (*link)["joints"][0].get<int>();
+  const int b = geometry->firstNode + (*link)["joints"][1].get<int>();
+  const Vector& rest = context.model.restPositions;
+  const auto at = [&](double along, double across) {
+    return mechanics::attachedToLink(dimension, rest, a, b, along, across);
+  };
+  const double along = end["along"], across = end["across"];
+  SpringEnd attached{at(along, across), {}};
+  const double length = (rest.segment(b * dimension, dimension) - rest.segment(a * dimension, dimension)).norm();
+  const double nearest = std::clamp(along, 0.0, length);
+  if (across != 0 || nearest != along) attached.nearestOfLink = at(nearest, 0);
+  return attached;
 }
 
 }  // namespace
@@ -79,17 +94,19 @@ void addRigidAngle(const ElementContext& context) {
 
 void addLocalSpring(const MechanismContext& context, const Json& entry, const std::string& pointer) {
   mechanics::Model& model = context.model;
-  const AttachmentPoint from =
-      locate(pointer + "/from", [&] { return endOf(context, entry["from"], pointer + "/from"); });
-  const AttachmentPoint to = locate(pointer + "/to", [&] { return endOf(context, entry["to"], pointer + "/to"); });
+  const SpringEnd from = locate(pointer + "/from", [&] { return endOf(context, entry["from"], pointer + "/from"); });
+  const SpringEnd to = locate(pointer + "/to", [&] { return endOf(context, entry["to"], pointer + "/to"); });
   const auto place = [&](const AttachmentPoint& point) {
     return mechanics::positionOf(point, model.dimension, model.restPositions);
   };
   const double restLength =
-      entry.contains("rest_length") ? entry["rest_length"].get<double>() : (place(to) - place(from)).norm();
+      entry.contains("rest_length") ? entry["rest_length"].get<double>() : (place(to.point) - place(from.point)).norm();
   model.energies.push_back(mechanics::makeLocalSpring(
-      model.dimension, from, to, restLength, {entry["coefficients"].get<std::vector<double>>()}));
-  model.parts.front().attachedSprings.push_back({from, to});
+      model.dimension, from.point, to.point, restLength, {entry["coefficients"].get<std::vector<double>>()}));
+  mechanics::DisplayPart& part = model.parts.front();
+  part.springs.push_back({from.point, to.point});
+  for (const SpringEnd& end : {from, to})
+    if (end.nearestOfLink) part.arms.push_back({*end.nearestOfLink, end.point});
 }
 
 void addTorsionSpring(const MechanismContext& context, const Json& entry, const std::string& pointer) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
 #include "core/mechanics/prescribed_motion.hpp"
 #include "core/mechanics/spring.hpp"
@@ -152,20 +153,24 @@ class Builder {
       const int from = selectNode(entry["from"], pointer + "/from", geometries_);
       const int to = selectNode(entry["to"], pointer + "/to", geometries_);
       model_.energies.push_back(mechanics::makeSpring(dimension_, from, to, restLength(restOf(from), restOf(to)), law));
-      partOf(from).segments.push_back({from, to});
+      addDisplayedSpring(from, mechanics::attachedToNode(dimension_, to));
     } else if (type == "anchored") {
       const int node = selectNode(entry["at"], pointer + "/at", geometries_);
       const Vector anchor = toVector(entry["anchor"]);
       model_.energies.push_back(
           mechanics::makeAnchoredSpring(dimension_, node, anchor, restLength(restOf(node), anchor), law));
-      partOf(node).tethers.push_back({node, anchor});
+      addDisplayedSpring(node, mechanics::fixedPlace(anchor));
     } else {
       const Vector direction = toVector(entry["direction"]).stableNormalized();
       for (const int node : nodesAt(entry, pointer)) {
         model_.energies.push_back(mechanics::makeGroundedSpring(dimension_, node, restOf(node), direction, law));
-        partOf(node).tethers.push_back({node, restOf(node)});
+        addDisplayedSpring(node, mechanics::fixedPlace(restOf(node)));
       }
     }
+  }
+
+  void addDisplayedSpring(int node, const mechanics::AttachmentPoint& to) {
+    partOf(node).springs.push_back({mechanics::attachedToNode(dimension_, node), to});
   }
 
   mechanics::DisplayPart& partOf(int node) {

@@ -55,14 +55,21 @@ Json probeInTime(const mechanics::Model& model, const Matrix& positions, const m
           {"maximum_displacement", (path.rowwise() - mean).rowwise().norm().maxCoeff()}};
 }
 
+/// Whether there are a solution and a reference to compare it with.
+bool isCompared(const ComparedSolution& solution, double swing) {
+  return swing > 0 && solution.termination == base::TerminationType::converged;
+}
+
 Json solutionJson(const ComparedSolution& solution, double swing) {
   Json json;
   if (solution.harmonics > 0) json["harmonics"] = solution.harmonics;
   json[solution.harmonics > 0 ? "samples" : "steps"] = solution.samples;
-  json["difference_to_newmark"] = solution.toNewmark;
-  json["difference_to_reference"] = solution.toReference;
-  json["relative_difference_to_newmark"] = solution.toNewmark / swing;
-  json["relative_difference_to_reference"] = solution.toReference / swing;
+  if (isCompared(solution, swing)) {
+    json["difference_to_newmark"] = solution.toNewmark;
+    json["difference_to_reference"] = solution.toReference;
+    json["relative_difference_to_newmark"] = solution.toNewmark / swing;
+    json["relative_difference_to_reference"] = solution.toReference / swing;
+  }
   if (solution.harmonics == 0) json["periods"] = solution.periods;
   json["termination"] = base::toString(solution.termination);
   json["seconds"] = solution.seconds;
@@ -78,9 +85,11 @@ std::string comparisonTable(const ComparisonResult& result, const Belongs& belon
   const double swing = result.comparison.swing;
   for (const ComparedSolution& solution : result.comparison.solutions) {
     if (!belongs(solution)) continue;
-    csv.add(solution.harmonics).add(solution.samples).add(solution.toNewmark).add(solution.toReference);
-    csv.add(solution.toNewmark / swing).add(solution.toReference / swing).add(solution.periods);
-    csv.add(solution.seconds).endRow();
+    csv.add(solution.harmonics).add(solution.samples);
+    for (const double unit : {1.0, swing})
+      for (const double difference : {solution.toNewmark, solution.toReference})
+        isCompared(solution, swing) ? csv.add(difference / unit) : csv.add("");
+    csv.add(solution.periods).add(solution.seconds).endRow();
   }
   return csv.text();
 }

@@ -8,6 +8,16 @@
 
 namespace pliant::solvers {
 
+namespace {
+
+/// Of its length that a vector must keep when it is orthogonalised, or else it is orthogonalised again (Daniel, Gragg,
+/// Kaufman & Stewart 1976).
+constexpr double enoughLeft = 0.7;
+/// Of its length that rounding leaves to a vector that was in the space.
+constexpr double invariantRest = 1e-14;
+
+}  // namespace
+
 Arnoldi::Arnoldi(Operator apply, const Eigen::VectorXd& start, int maximumSteps)
     : apply_(std::move(apply)),
       basis_(start.size(), maximumSteps + 1),
@@ -26,14 +36,17 @@ void Arnoldi::extend(int steps) {
     }
     const auto known = basis_.leftCols(dimension_ + 1);
     auto column = hessenberg_.col(dimension_).head(dimension_ + 1);
-    for (int pass = 0; pass < 2; ++pass) {
+    double rest = before;
+    double length = 0;
+    do {
+      length = rest;
       const Eigen::VectorXd part = known.transpose() * next;
-      next -= known * part;
+      next.noalias() -= known * part;
       column += part;
-    }
-    const double rest = next.norm();
+      rest = next.norm();
+    } while (rest < enoughLeft * length && rest > invariantRest * before);
     ++dimension_;
-    invariant_ = rest <= 1e-14 * before || dimension_ == next.size();
+    invariant_ = rest <= invariantRest * before || dimension_ == next.size();
     exhausted_ = invariant_ || dimension_ == hessenberg_.cols();
     hessenberg_(dimension_, dimension_ - 1) = rest;
     basis_.col(dimension_) = rest > 0 ? Eigen::VectorXd(next / rest) : next;

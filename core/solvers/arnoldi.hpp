@@ -13,7 +13,8 @@ struct RitzPairs {
 };
 
 /// Arnoldi's method without restarts: an orthonormal basis of the Krylov space of A and a start vector, which grows as
-/// long as its owner wants more. Orthogonalised twice, so it stays orthonormal to working precision.
+/// long as its owner wants more. Orthogonalised again where much is taken away, so it stays orthonormal to working
+/// precision.
 class Arnoldi {
  public:
   using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;

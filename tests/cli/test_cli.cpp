@@ -35,7 +35,7 @@ class TestCli : public QObject {
     QCOMPARE(runCli({"--version"}).output, "pliant-cli " PLIANT_VERSION "\n");
     const auto help = runCli({"--help"});
     QCOMPARE(help.status, 0);
-    for (const char* verb : {"list", "run", "validate", "render", "export", "schema"}) {
+    for (const char* verb : {"list", "run", "validate", "render", "plot", "export", "schema"}) {
       QVERIFY2(help.output.contains(verb), verb);
       QCOMPARE(runCli({verb, "--help"}).status, 0);
     }
@@ -143,6 +143,22 @@ class TestCli : public QObject {
     QVERIFY((rest - start).norm() > 1e-4);
     QVERIFY((half - start).norm() > 1e-4);
     QVERIFY((period - start).norm() < 1e-6);
+  }
+
+  void plotDrawsCurves() {
+    const QStringList plot{"plot", file("full.json"), "--result", file("results"), "--out", file("curve.png")};
+    QCOMPARE(runCli({"run", file("full.json"), "--out", file("results"), "--study", "response"}).status, 0);
+    const auto outcome = runCli(plot + QStringList{"--study", "response", "--size", "640x400"});
+#ifdef PLIANT_HAS_RENDERER
+    QVERIFY2(outcome.status == 0, qPrintable(outcome.errors));
+    QVERIFY(scene::readTextFile(file("curve.png").toStdString()).starts_with("\x89PNG"));
+    const auto missing = runCli(plot + QStringList{"--study", "nothing"});
+    QCOMPARE(missing.status, 2);
+    QVERIFY2(missing.errors.contains("no result of the study"), qPrintable(missing.errors));
+#else
+    QCOMPARE(outcome.status, 2);
+    QVERIFY(outcome.errors.contains("no renderer"));
+#endif
   }
 
   void renderDrawsAPicture() {

@@ -1,6 +1,7 @@
 #include "ui/panels/response_panel.hpp"
 
 #include <QComboBox>
+#include <QEvent>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -15,6 +16,7 @@
 #include "ui/panels/parameter_panel.hpp"
 #include "ui/panels/response_overlays.hpp"
 #include "ui/plots/plot_export.hpp"
+#include "ui/plots/shape_image.hpp"
 
 namespace pliant::panels {
 
@@ -25,6 +27,7 @@ using plots::ResponsePlace;
 
 namespace {
 
+constexpr QSize insetSize{96, 72};
 const QString amplitudeTopic = QStringLiteral("amplitudes");
 
 bool isCurve(const document::StudyState& study) {
@@ -41,6 +44,19 @@ int probeOf(const mechanics::Model& model, int node) {
   for (std::size_t i = 0; i < model.probes.size(); ++i)
     if (model.probes[i].node == node) return static_cast<int>(i);
   return -1;
+}
+
+/// All nodes where one of them is farthest from its mean position.
+harmonic::Vector positionsFarthestOut(const harmonic::HarmonicBalanceProblem& problem, const harmonic::Vector& z,
+                                      int node) {
+  const harmonic::Matrix samples = problem.trajectories(z);
+  const int dimension = problem.model().dimension;
+  const harmonic::Matrix path = samples.middleCols(Eigen::Index{node} * dimension, dimension);
+  const Eigen::RowVectorXd mean = path.colwise().mean();
+  Eigen::Index farthest = 0;
+  for (Eigen::Index i = 1; i < path.rows(); ++i)
+    if ((path.row(i) - mean).norm() > (path.row(farthest) - mean).norm()) farthest = i;
+  return samples.row(farthest);
 }
 
 }  // namespace
@@ -150,6 +166,9 @@ QToolButton* ResponsePanel::makeMenuButton() {
   compare_->setCheckable(true);
   compare_->setChecked(true);
   connect(compare_, &QAction::toggled, this, &ResponsePanel::refreshOverlays);
+  shapes_ = menu->addAction(tr("Show shapes at the peaks"));
+  shapes_->setCheckable(true);
+  connect(shapes_, &QAction::toggled, this, &ResponsePanel::refreshInsets);
   const auto choose = [this](auto&& act) {
     try {
       act();
@@ -297,6 +316,7 @@ void ResponsePanel::refreshCurve() {
 void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::vector<double>& amplitudes) {
   const document::StudyState& study = *document_.study(study_);
   std::vector<ResponseCurve> curves;
+  peaks_.clear();
   if (result) {
     const mechanics::Model& model = result->problem->model();
     const int node = jobs::correspondingNode(*document_.model(), session_.node(), model);
@@ -312,6 +332,13 @@ void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::v
       selected.unstable.push_back(point.stability.state == harmonic::StabilityState::unstable);
       selected.branches.push_back(point.branch);
     }
+    for (std::size_t i = 0; i < result->points.size(); ++i) {
+      if (selected.kinds[i] != harmonic::PointKind::peak) continue;
+      const harmonic::ResponsePoint& peak = result->points[i];
+      const auto problem = result->problemOf(peak);
+      peaks_.push_back(
+          {{peak.omega, amplitudes[i]}, problem->sharedModel(), positionsFarthestOut(*problem, peak.z, node)});
+    }
     curves.push_back(selected);
     for (std::size_t probe = 0; probe < model.probes.size(); ++probe) {
       if (model.probes[probe].node == node) continue;
@@ -325,6 +352,23 @@ void ResponsePanel::showCurves(const scene::HarmonicResult* result, const std::v
     }
   }
   plot_->setCurves(std::move(curves), 0, study.status, study.stale, study.message);
+  refreshInsets();
+}
+
+void ResponsePanel::refreshInsets() {
+  std::vector<plots::ResponseInset> insets;
+  if (shapes_->isChecked())
+    for (const ShapeAt& peak : peaks_)
+      insets.push_back(
+          {peak.place, plots::shapeImage(*peak.model, peak.positions, insetSize, devicePixelRatioF(), palette())});
+  std::stable_sort(
+      insets.begin(), insets.end(), [](const auto& a, const auto& b) { return a.place.amplitude > b.place.amplitude; });
+  plot_->setInsets(std::move(insets));
+}
+
+void ResponsePanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) refreshInsets();
 }
 
 void ResponsePanel::refreshMarkers() {

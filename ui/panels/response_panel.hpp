@@ -33,7 +33,17 @@ class ResponsePanel final : public QWidget {
   void readoutChanged(const QString& text);
   void hertzChanged(bool hertz);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  /// A model as far out as a motion takes it.
+  struct ShapeAt {
+    plots::ResponsePlace place;
+    std::shared_ptr<const mechanics::Model> model;
+    harmonic::Vector positions;
+  };
+
   void rebuild();
   void fillStudies();
   void fillNodes();
@@ -43,6 +53,7 @@ class ResponsePanel final : public QWidget {
   void refreshMarkers();
   void refreshEmptyState();
   void refreshOverlays();
+  void refreshInsets();
   QToolButton* makeMenuButton();
 
   document::Document& document_;
@@ -50,12 +61,14 @@ class ResponsePanel final : public QWidget {
   jobs::JobRunner& quick_;
   std::string study_;
   std::shared_ptr<const scene::Result> drawn_;
+  std::vector<ShapeAt> peaks_;  ///< of the curve that is shown
   QComboBox* studies_;
   QComboBox* nodes_;
   QComboBox* measures_;
   QToolButton* unit_;
   QToolButton* scale_;
   QAction* compare_;
+  QAction* shapes_;
   std::vector<plots::ResponseOverlay> measurements_;
   plots::ResponsePlot* plot_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QImage>
 #include <QString>
 #include <QWidget>
 #include <memory>
@@ -38,6 +39,12 @@ struct ResponsePlace {
   double amplitude = 0;  ///< [m]
 };
 
+/// A picture that belongs to a place of the curve.
+struct ResponseInset {
+  ResponsePlace place;
+  QImage image;
+};
+
 /// A frequency-response curve with its folds and peaks, growing while it is computed. It shows which motion the
 /// viewport plays, what is predicted, and what the curve is worth: solved, stale, cancelled. It only draws.
 ///
@@ -60,6 +67,9 @@ class ResponsePlot final : public QWidget {
   /// Drawn thin in colours of their own, named in a legend; the axes are fitted to the study's own curves.
   void setOverlays(std::vector<ResponseOverlay> overlays);
   const std::vector<ResponseOverlay>& overlays() const;
+  /// Drawn beside their places, the first ones first, where there is room.
+  void setInsets(std::vector<ResponseInset> insets);
+  int visibleInsets() const;
   /// Amplitudes on a logarithmic axis.
   void setLogarithmic(bool logarithmic);
 
@@ -116,6 +126,7 @@ class ResponsePlot final : public QWidget {
   void fitAmplitudes();
   void redrawMarkers();
   void placeLabels();
+  void placeInsets(const std::vector<QRectF>& taken);
   void updateChip();
   void updateAxisLabels();
   void enlargeToFit();

@@ -241,6 +241,7 @@ void ResponsePlot::placeLabels() {
     landmark->label->position->setCoords(place->center());
     landmark->label->setText(landmark->text);
   }
+  placeInsets(taken);
 }
 
 }  // namespace pliant::plots

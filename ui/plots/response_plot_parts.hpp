@@ -23,6 +23,13 @@ struct Landmark {
   QCPItemText* label = nullptr;
 };
 
+/// A picture and the line from it to its place.
+struct InsetItem {
+  ResponsePlace place;
+  QCPItemPixmap* picture = nullptr;
+  QCPItemLine* leader = nullptr;
+};
+
 /// What a ResponsePlot is made of.
 struct ResponsePlot::Parts {
   QStackedLayout* pages = nullptr;
@@ -49,6 +56,7 @@ struct ResponsePlot::Parts {
   QCPItemText* predictedLabel = nullptr;
   QCPItemText* hoverLabel = nullptr;
   std::vector<Landmark> landmarks;
+  std::vector<InsetItem> insets;
 
   PlotStyle style;
   std::vector<ResponseCurve> curves;

@@ -159,14 +159,13 @@ struct MotionView::Parts {
   /// Everything that depends on the solved motion but not on τ.
   void showMotion() {
     trajectories = problem ? problem->trajectories(z) : Matrix();
-    Points reach = model ? layout.pose(model->restPositions) : Points(3, 0);
+    Points reach = model ? layout.places(model->restPositions) : Points(3, 0);
     leastStretch = 0;
     mostStretch = 0;
     if (problem) {
-      reach.resize(3, trajectories.rows() * layout.rest.cols() + layout.anchors.cols());
-      reach.rightCols(layout.anchors.cols()) = layout.anchors;
+      reach.resize(3, trajectories.rows() * reach.cols());
       for (Eigen::Index i = 0; i < trajectories.rows(); ++i) {
-        const Points sample = toPoints(trajectories.row(i).transpose(), model->nodeCount(), layout.dimension);
+        const Points sample = layout.places(trajectories.row(i).transpose());
         reach.middleCols(i * sample.cols(), sample.cols()) = sample;
         if (layout.triangles.empty()) continue;
         const Vector values = stretch(trajectories.row(i).transpose());

@@ -2,23 +2,13 @@
 
 #include <vtkRenderWindow.h>
 
-#include "core/base/error.hpp"
 #include "ui/render/offscreen_target.hpp"
 
 namespace pliant::render {
-namespace {
-
-constexpr int largestSide = 8192;  // pixels; what a framebuffer of every driver holds
-
-}  // namespace
 
 Image renderToImage(const std::shared_ptr<const mechanics::Model>& model,
                     const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
                     double tau, const PictureOptions& options) {
-  if (options.width < 1 || options.height < 1 || options.width > largestSide || options.height > largestSide)
-    throw base::InputError("", "the size of the picture is " + std::to_string(options.width) + "x" +
-                                   std::to_string(options.height) + "; each side has to lie between 1 and " +
-                                   std::to_string(largestSide) + " pixels");
   OffscreenTarget target;
   target.setSize(options.width, options.height);
   Image image;

@@ -3,6 +3,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 
+#include "core/base/error.hpp"
 #include "ui/render/opengl_window.hpp"
 
 namespace pliant::render {
@@ -50,7 +51,12 @@ vtkRenderWindow* OffscreenTarget::window() const { return parts_->window; }
 
 std::string_view OffscreenTarget::contextName() const { return parts_->context->name(); }
 
-void OffscreenTarget::setSize(int width, int height) { parts_->window->SetSize(width, height); }
+void OffscreenTarget::setSize(int width, int height) {
+  if (width < 1 || height < 1 || width > largestSide || height > largestSide)
+    throw base::InputError("", "the size of the picture is " + std::to_string(width) + "x" + std::to_string(height) +
+                                   "; each side has to lie between 1 and " + std::to_string(largestSide) + " pixels");
+  parts_->window->SetSize(width, height);
+}
 
 void OffscreenTarget::render(Image& image) {
   parts_->context->makeCurrent();

@@ -32,12 +32,6 @@ void setPositions(vtkPoints* points, const Points& positions, const std::vector<
 
 }  // namespace
 
-Points toPoints(const Eigen::VectorXd& coordinates, int nodes, int dimension) {
-  Points points = Points::Zero(3, nodes);
-  points.topRows(dimension) = coordinates.head(nodes * dimension).reshaped(dimension, nodes);
-  return points;
-}
-
 void setColor(vtkActor* actor, const Color& color) { actor->GetProperty()->SetColor(color[0], color[1], color[2]); }
 
 void setHatched(vtkActor* actor, double period) {

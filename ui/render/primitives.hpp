@@ -10,18 +10,13 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderer.h>
 
-#include <Eigen/Core>
 #include <array>
 #include <vector>
 
+#include "ui/render/points.hpp"
 #include "ui/render/theme.hpp"
 
 namespace pliant::render {
-
-using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
-
-/// Positions of all nodes (size n * dimension) as points, padded with 0.
-Points toPoints(const Eigen::VectorXd& coordinates, int nodes, int dimension);
 
 void setColor(vtkActor* actor, const Color& color);
 

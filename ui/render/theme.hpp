@@ -16,6 +16,7 @@ struct Palette {
   Color edge;     ///< of triangles
   Color outline;  ///< of surfaces
   Color rest;     ///< a surface without a field
+  Color link;     ///< and rods
   Color spring;
   Color mass;
   Color driven;      ///< driven nodes

@@ -1,85 +1,21 @@
 #include "ui/shell/thumbnail.hpp"
 
-#include <Eigen/Geometry>
-#include <QPainter>
-#include <algorithm>
-#include <cmath>
-
 #include "core/base/error.hpp"
 #include "ui/document/document.hpp"
-#include "ui/plots/plot_style.hpp"
+#include "ui/plots/shape_image.hpp"
 
 namespace pliant::shell {
 
-namespace {
-
-/// Positions seen isometrically: x and y on the picture (y down), z towards the eye.
-Eigen::Matrix3Xd projected(const mechanics::Model& model) {
-  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, model.nodeCount());
-  for (int node = 0; node < model.nodeCount(); ++node)
-    points.col(node).head(model.dimension) = model.restPositions.segment(node * model.dimension, model.dimension);
-  if (model.dimension < 3) {
-    points.row(1) *= -1;
-    return points;
-  }
-  const Eigen::Vector3d towards = Eigen::Vector3d(1, -1.4, 1.2).normalized();
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards).normalized();
-  Eigen::Matrix3d view;
-  view << right.transpose(), -towards.cross(right).transpose(), towards.transpose();
-  return view * points;
-}
-
-}  // namespace
-
 QImage thumbnail(const QString& sceneFile, const QSize& size, double pixelRatio, const QPalette& palette) {
-  QImage image(size * pixelRatio, QImage::Format_ARGB32_Premultiplied);
-  image.setDevicePixelRatio(pixelRatio);
-  image.fill(Qt::transparent);
-  std::shared_ptr<const mechanics::Model> model;
   try {
-    model = document::loadScene(sceneFile).model;
+    const auto model = document::loadScene(sceneFile).model;
+    return plots::shapeImage(*model, model->restPositions, size, pixelRatio, palette);
   } catch (const base::InputError&) {
+    QImage image(size * pixelRatio, QImage::Format_ARGB32_Premultiplied);
+    image.setDevicePixelRatio(pixelRatio);
+    image.fill(Qt::transparent);
     return image;
   }
-  const Eigen::Matrix3Xd points = projected(*model);
-  const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
-  constexpr double margin = 16;
-  const double extent = std::max(
-      {(high.x() - low.x()) / (size.width() - 2 * margin), (high.y() - low.y()) / (size.height() - 2 * margin), 1e-12});
-  const Eigen::Vector3d middle = (low + high) / 2;
-  const auto at = [&](int node) {
-    return QPointF(size.width() / 2.0 + (points(0, node) - middle.x()) / extent,
-                   size.height() / 2.0 + (points(1, node) - middle.y()) / extent);
-  };
-  const plots::PlotStyle style = plots::plotStyle(palette);
-  QPainter painter(&image);
-  painter.setRenderHint(QPainter::Antialiasing);
-  std::vector<std::array<int, 3>> triangles;
-  for (const auto& part : model->parts) triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
-  const auto depth = [&](const std::array<int, 3>& t) { return points(2, t[0]) + points(2, t[1]) + points(2, t[2]); };
-  std::stable_sort(
-      triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
-  QColor fill = style.curve;
-  painter.setPen(QPen(style.background, 0.7));
-  for (const auto& triangle : triangles) {
-    const Eigen::Vector3d normal = (points.col(triangle[1]) - points.col(triangle[0]))
-                                       .cross(points.col(triangle[2]) - points.col(triangle[0]))
-                                       .normalized();
-    fill.setAlphaF(static_cast<float>(0.45 + 0.5 * std::abs(normal.z())));
-    painter.setBrush(fill);
-    const QPointF corners[3] = {at(triangle[0]), at(triangle[1]), at(triangle[2])};
-    painter.drawConvexPolygon(corners, 3);
-  }
-  painter.setPen(QPen(style.mutedText, 2));
-  for (const auto& part : model->parts)
-    for (const auto& segment : part.segments) painter.drawLine(at(segment[0]), at(segment[1]));
-  painter.setPen(Qt::NoPen);
-  painter.setBrush(style.text);
-  for (const auto& mass : model->pointMasses)
-    for (const int node : mass.nodes) painter.drawEllipse(at(node), 4, 4);
-  painter.setBrush(style.shown);
-  for (const auto& probe : model->probes) painter.drawEllipse(at(probe.node), 2.5, 2.5);
-  return image;
 }
 
 }  // namespace pliant::shell

@@ -8,10 +8,14 @@ namespace {
 
 /// Whether both models put the same lines and triangles at the same places.
 bool looksAlike(const mechanics::Model& a, const mechanics::Model& b) {
-  if (a.restPositions.size() != b.restPositions.size() || a.restPositions != b.restPositions) return false;
+  if (a.dimension != b.dimension || a.restPositions.size() != b.restPositions.size() ||
+      a.restPositions != b.restPositions)
+    return false;
   if (a.parts.size() != b.parts.size()) return false;
   for (std::size_t i = 0; i < a.parts.size(); ++i)
-    if (a.parts[i].triangles != b.parts[i].triangles || a.parts[i].segments != b.parts[i].segments) return false;
+    if (a.parts[i].triangles != b.parts[i].triangles || a.parts[i].segments != b.parts[i].segments ||
+        a.parts[i].springs != b.parts[i].springs || a.parts[i].arms != b.parts[i].arms)
+      return false;
   return true;
 }
 

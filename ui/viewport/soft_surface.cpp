@@ -44,8 +44,9 @@ class SoftSurface final : public RenderSurface {
 
  private:
   void updateSize() {
+    const QSize largest(render::OffscreenTarget::largestSide, render::OffscreenTarget::largestSide);
     const double ratio = widget_->devicePixelRatioF();
-    const QSize size = (QSizeF(widget_->size()) * ratio).toSize().expandedTo(QSize(1, 1));
+    const QSize size = (QSizeF(widget_->size()) * ratio).toSize().expandedTo(QSize(1, 1)).boundedTo(largest);
     if (size == size_ && ratio == ratio_) return;
     size_ = size;
     ratio_ = ratio;

@@ -83,12 +83,18 @@ void TestMechanismScenes::linksHaveMassAndStayRigid() {
 
 void TestMechanismScenes::localSpringsPullAtLinks() {
   const auto model = buildScene(linkage);
-  QCOMPARE(model->parts[0].attachedSprings.size(), 1u);
-  const auto& [from, to] = model->parts[0].attachedSprings[0];
+  QCOMPARE(model->parts[0].springs.size(), 1u);
+  const auto& [from, to] = model->parts[0].springs[0];
   // Two metres from (0, 0) towards (3, 4), and one to the left.
   const Vector expected = Eigen::Vector2d(2 * 0.6 - 0.8, 2 * 0.8 + 0.6);
   QVERIFY((mechanics::positionOf(from, 2, model->restPositions) - expected).norm() <= 1e-14);
   QCOMPARE(mechanics::positionOf(to, 2, model->restPositions), Vector(Eigen::Vector2d(5, 5)));
+  // It hangs on an arm from the link.
+  QCOMPARE(model->parts[0].arms.size(), 1u);
+  const auto& [foot, hand] = model->parts[0].arms[0];
+  const Vector onLink = Eigen::Vector2d(2 * 0.6, 2 * 0.8);
+  QVERIFY((mechanics::positionOf(foot, 2, model->restPositions) - onLink).norm() <= 1e-14);
+  QVERIFY(hand == from);
 }
 
 void TestMechanismScenes::servosTurnLinks() {

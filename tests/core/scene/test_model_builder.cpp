@@ -28,7 +28,8 @@ class TestModelBuilder : public QObject {
     QCOMPARE(model->nodeCount(), 15 + 2);
     QCOMPARE(model->parts.size(), 2u);
     QCOMPARE(model->parts[0].triangles.size(), 16u);
-    QCOMPARE(model->parts[0].segments.size(), 1u);
+    QCOMPARE(model->parts[0].segments.size(), 0u);
+    QCOMPARE(model->parts[0].springs.size() + model->parts[1].springs.size(), 4u);
     QCOMPARE(model->parts[1].firstNode, 15);
     QCOMPARE(model->energies.size(), 2u + 4u);
     QCOMPARE(model->pointMasses.size(), 2u);
@@ -109,10 +110,12 @@ class TestModelBuilder : public QObject {
     const Vector gradient = mechanics::ElasticAssembler(model).gradient(Eigen::Vector2d(e, 2));
     QVERIFY(std::abs(gradient[0] - (e + 2 * e * e + 3 * e * e * e + 5 * e)) < 1e-14);
     QVERIFY(std::abs(gradient[1] - (-5 * e - 7 * (4 - 3))) < 1e-14);
-    const auto& tethers = model->parts[0].tethers;
-    QCOMPARE(tethers.size(), 2u);
-    QVERIFY(tethers[0].node == 0 && tethers[0].anchor[0] == 0);
-    QVERIFY(tethers[1].node == 1 && tethers[1].anchor[0] == 6);
+    const auto& springs = model->parts[0].springs;
+    QCOMPARE(springs.size(), 3u);
+    for (const auto& [from, to] : springs) QCOMPARE(from.terms.size(), 1u);
+    QVERIFY(springs[0][0].terms[0].node == 0 && springs[0][1].terms.empty() && springs[0][1].constant[0] == 0);
+    QVERIFY(springs[1][0].terms[0].node == 0 && springs[1][1].terms[0].node == 1);
+    QVERIFY(springs[2][0].terms[0].node == 1 && springs[2][1].terms.empty() && springs[2][1].constant[0] == 6);
   }
 
   void refuses_data() {

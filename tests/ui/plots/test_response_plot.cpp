@@ -73,6 +73,7 @@ class TestResponsePlot : public QObject {
   void theFrequencyUnitChangesNoPlace();
   void aLargePredictionIsStillSeen();
   void theWheelZoomsAndADoubleClickShowsAll();
+  void insetsStandBesideTheirPlaces();
   void themesDiffer();
 
  private:
@@ -224,6 +225,26 @@ void TestResponsePlot::theWheelZoomsAndADoubleClickShowsAll() {
   QVERIFY(plot_->largestFrequencyShown() < all);
   QTest::mouseDClick(canvas(), Qt::LeftButton, {}, middle);
   QCOMPARE(plot_->largestFrequencyShown(), all);
+}
+
+/// As many as there is room for, and none of a place that is not shown.
+void TestResponsePlot::insetsStandBesideTheirPlaces() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  QCOMPARE(plot_->visibleInsets(), 0);
+  const ResponsePlace peak{1.2, 0.009}, beyond{9.0, 0.009};
+  QImage image(90, 60, QImage::Format_ARGB32_Premultiplied);
+  image.fill(Qt::red);
+  plot_->setInsets({{peak, image}, {peak, image}, {beyond, image}});
+  QCoreApplication::processEvents();
+  const QImage picture = plot_->grab().toImage();
+  QCOMPARE(plot_->visibleInsets(), 2);
+  int red = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) red += picture.pixelColor(x, y) == QColor(Qt::red);
+  QVERIFY2(red > 2 * 85 * 55, qPrintable(QString::number(red)));
+  plot_->setInsets({});
+  QCOMPARE(plot_->visibleInsets(), 0);
 }
 
 void TestResponsePlot::themesDiffer() {

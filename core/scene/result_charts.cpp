@@ -1,0 +1,253 @@
+#include "core/scene/result_charts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/scene/csv.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/study.hpp"
+
+namespace pliant::scene {
+
+namespace {
+
+using base::InputError;
+using Mark = ResultSeries::Mark;
+
+/// What response.csv says of each point, of each probe or of the model.
+struct ResponseQuantity {
+  std::string_view key;
+  std::string_view label;
+  std::string_view column;  ///< of response.csv, after the probe's name if it is of a probe
+  double perUnit;           ///< of the label, of what is in SI
+  const char* json;         ///< of a probe in a time integration's summary; null: not in there
+};
+
+constexpr std::array<ResponseQuantity, 3> quantities{{
+    {"path-length", "Path length [mm]", " path length [m]", 1e3, "path_length"},
+    {"displacement", "Largest displacement [mm]", " maximum displacement [m]", 1e3, "maximum_displacement"},
+    {"strain", "Largest strain", "largest strain", 1, nullptr},
+}};
+
+/// A table with its header, by column.
+class Table {
+ public:
+  explicit Table(const std::filesystem::path& file) : file_(file), text_(readTextFile(file)) {
+    try {
+      rows_ = readCsv(text_);
+    } catch (const InputError& error) {
+      throw InputError(file.string(), error.problem());
+    }
+    std::istringstream header(text_.substr(0, text_.find('\n')));
+    for (std::string name; std::getline(header, name, ',');) names_.push_back(name);
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  std::size_t rowCount() const { return rows_.size(); }
+  std::vector<std::string> texts(std::string_view column) const {
+    std::vector<std::string> result;
+    for (const auto& row : rows_) result.emplace_back(row[indexOf(column)]);
+    return result;
+  }
+  std::vector<double> numbers(std::string_view column, double factor) const {
+    std::vector<double> result;
+    for (const auto& row : rows_) {
+      try {
+        result.push_back(factor * csvNumber(row[indexOf(column)]));
+      } catch (const InputError& error) {
+        throw InputError(file_.string(), error.problem());
+      }
+    }
+    return result;
+  }
+
+ private:
+  std::size_t indexOf(std::string_view column) const {
+    const auto found = std::find(names_.begin(), names_.end(), column);
+    if (found == names_.end())
+      throw InputError(file_.string(), "This table has no column " + quote(std::string(column)) + ".");
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+
+  std::filesystem::path file_;
+  std::string text_;
+  std::vector<std::vector<std::string_view>> rows_;
+  std::vector<std::string> names_;
+};
+
+/// A study's result on disk.
+struct Found {
+  std::string study;
+  std::filesystem::path folder;
+  Json summary;
+  std::string kind() const { return summary.value("kind", ""); }
+};
+
+std::vector<Found> findResults(const Scene& scene, const std::filesystem::path& folder,
+                               const std::vector<std::string>& studies) {
+  std::vector<Found> found;
+  for (const std::string& study : studies.empty() ? studyNames(scene) : studies) {
+    const std::filesystem::path file = folder / study / "summary.json";
+    if (!std::filesystem::exists(file)) {
+      if (studies.empty()) continue;
+      throw InputError(folder.string(), "There is no result of the study " + quote(study) + ".");
+    }
+    found.push_back({study, folder / study, parseJson(readTextFile(file))});
+  }
+  return found;
+}
+
+class ResponseChart {
+ public:
+  ResponseChart(const Scene& scene, const ResponseQuantity& quantity) : quantity_(quantity) {
+    chart_.title = scene.normalized()["title"];
+    chart_.xLabel = "Frequency ω [rad/s]";
+    chart_.yLabel = quantity.label;
+  }
+
+  void add(const Found& found) {
+    if (found.kind() == "time") return addTime(found);
+    const Table table(found.folder / "response.csv");
+    for (const std::string& column : table.names())
+      if (column.ends_with(quantity_.column)) {
+        const std::string probe = column.substr(0, column.size() - quantity_.column.size());
+        addCurve(table, column, probe, found.study + (probe.empty() ? "" : ", ") + probe);
+      }
+  }
+
+  ResultChart take() { return std::move(chart_); }
+
+ private:
+  void addSeries(const std::string& name, Mark mark, std::vector<double> x, std::vector<double> y) {
+    if (!x.empty()) chart_.series.push_back({name, mark, std::move(x), std::move(y), group_});
+  }
+
+  void addTime(const Found& found) {
+    if (!quantity_.json) return;
+    for (const Json& probe : found.summary.at("probes")) {
+      addSeries(found.study + ", " + probe.at("name").get<std::string>(), Mark::points, {found.summary.at("frequency")},
+                {quantity_.perUnit * probe.at(quantity_.json).get<double>()});
+      ++group_;
+    }
+  }
+
+  /// Pieces of one stability each, which share their ends, and the special points. A piece between two points is
+  /// unstable if one of them is.
+  void addCurve(const Table& table, const std::string& column, const std::string& probe, const std::string& name) {
+    const std::vector<double> omega = table.numbers("omega [rad/s]", 1);
+    const std::vector<double> value = table.numbers(column, quantity_.perUnit);
+    const std::vector<std::string> kind = table.texts("kind"), peakOf = table.texts("peak of");
+    const std::vector<std::string> branch = table.texts("branch"), stability = table.texts("stability");
+    if (omega.size() == 1) {
+      addSeries(name, Mark::points, omega, value);
+      ++group_;
+      return;
+    }
+    std::vector<double> specialOmega, specialValue;
+    for (std::size_t i = 0; i < omega.size(); ++i) {
+      if (kind[i] == "regular" || (!probe.empty() && !peakOf[i].empty() && peakOf[i] != probe)) continue;
+      specialOmega.push_back(omega[i]);
+      specialValue.push_back(value[i]);
+    }
+    const auto unstable = [&](std::size_t i) { return stability[i] == "unstable"; };
+    std::string title = name;
+    for (std::size_t begin = 0; begin + 1 < omega.size();) {
+      std::size_t end = begin + 1;
+      if (branch[end] != branch[begin]) {
+        begin = end;
+        continue;
+      }
+      const bool dashed = unstable(begin) || unstable(end);
+      while (end + 1 < omega.size() && branch[end + 1] == branch[begin] &&
+             (unstable(end) || unstable(end + 1)) == dashed)
+        ++end;
+      const auto from = static_cast<std::ptrdiff_t>(begin), to = static_cast<std::ptrdiff_t>(end) + 1;
+      addSeries(title, dashed ? Mark::dashedLine : Mark::line, {omega.begin() + from, omega.begin() + to},
+                {value.begin() + from, value.begin() + to});
+      title.clear();
+      begin = end;
+    }
+    addSeries("", Mark::points, specialOmega, specialValue);
+    ++group_;
+  }
+
+  const ResponseQuantity& quantity_;
+  ResultChart chart_;
+  int group_ = 0;
+};
+
+/// A series of one list of a comparison's summary; without what failed, and what a logarithmic axis cannot show.
+ResultSeries comparedSeries(const std::string& name, const Json& solutions, const char* x, const char* y, int group) {
+  ResultSeries series{name, Mark::line, {}, {}, group};
+  for (const Json& solution : solutions) {
+    const double value = solution.value(y, 0.0);
+    if (!(value > 0) || solution.at("termination") != "converged") continue;
+    series.x.push_back(solution.at(x));
+    series.y.push_back(value);
+  }
+  return series;
+}
+
+void addPoints(ResultChart& chart, ResultSeries series) {
+  chart.series.push_back(series);
+  series.name.clear();
+  series.mark = Mark::points;
+  chart.series.push_back(std::move(series));
+}
+
+std::vector<ResultChart> comparisonCharts(const std::vector<Found>& comparisons) {
+  ResultChart harmonics{"Error of harmonic balance", "Harmonics H", "Error relative to the swing", false, true, {}};
+  ResultChart samples{"Harmonic balance against Newmark's method",
+                      "Samples and time steps of a period N",
+                      "Difference relative to the swing",
+                      true,
+                      true,
+                      {}};
+  int group = 0;
+  for (const Found& found : comparisons) {
+    const std::string at =
+        "ω = " + base::formatQuantity(found.summary.at("frequency").get<double>(), base::dimensions::angularFrequency);
+    addPoints(harmonics, comparedSeries(at, found.summary.at("harmonics"), "harmonics",
+                                        "relative_difference_to_reference", group));
+    addPoints(
+        samples, comparedSeries(at, found.summary.at("samples"), "samples", "relative_difference_to_newmark", group));
+    ++group;
+  }
+  return {harmonics, samples};
+}
+
+}  // namespace
+
+std::vector<std::string> responseQuantities() {
+  std::vector<std::string> keys;
+  for (const ResponseQuantity& quantity : quantities) keys.emplace_back(quantity.key);
+  return keys;
+}
+
+std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem::path& folder,
+                                      const std::vector<std::string>& studies, const std::string& quantity) {
+  const auto* chosen =
+      std::find_if(quantities.begin(), quantities.end(), [&](const auto& known) { return known.key == quantity; });
+  if (chosen == quantities.end()) throw InputError("--quantity", "There is no quantity " + quote(quantity) + ".");
+  ResponseChart response(scene, *chosen);
+  std::vector<Found> comparisons;
+  for (const Found& found : findResults(scene, folder, studies)) {
+    if (found.kind() == "comparison")
+      comparisons.push_back(found);
+    else if (found.kind() == "harmonic" || found.kind() == "time")
+      response.add(found);
+    else if (!studies.empty())
+      throw InputError(folder.string(), "The result of " + quote(found.study) + " has no chart.");
+  }
+  std::vector<ResultChart> charts;
+  if (ResultChart chart = response.take(); !chart.series.empty()) charts.push_back(std::move(chart));
+  if (!comparisons.empty())
+    for (ResultChart& chart : comparisonCharts(comparisons)) charts.push_back(std::move(chart));
+  if (charts.empty()) throw InputError(folder.string(), "This folder has no result that a chart can show.");
+  return charts;
+}
+
+}  // namespace pliant::scene
