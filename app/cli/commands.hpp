@@ -10,12 +10,24 @@ namespace pliant::cli {
 
 ExitStatus list(const std::string& scene);
 
+/// Which results to plot.
+struct PlotOptions {
+  std::string scene;
+  std::string result;                ///< folder that `run` wrote
+  std::vector<std::string> studies;  ///< empty: all that have a result
+  std::string quantity = "path-length";
+  bool logarithmic = false;  ///< the values of response curves
+  std::string out;
+};
+ExitStatus plot(const PlotOptions& options, const std::string& size);
+
 struct RunOptions {
   std::string scene;
   std::string out;
   std::vector<std::string> studies;   ///< empty: all
   std::vector<std::string> settings;  ///< "/json/pointer=VALUE"
   int threads = 0;                    ///< 0: all cores
+  std::string plot;                   ///< PNG file for what the results show; empty: none
 };
 ExitStatus run(const RunOptions& options);
 
@@ -31,17 +43,6 @@ struct MotionOptions {
 };
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
-
-/// Which results to plot.
-struct PlotOptions {
-  std::string scene;
-  std::string result;                ///< folder that `run` wrote
-  std::vector<std::string> studies;  ///< empty: all that have a result
-  std::string quantity = "path-length";
-  bool logarithmic = false;  ///< the values of response curves
-  std::string out;
-};
-ExitStatus plot(const PlotOptions& options, const std::string& size);
 
 /// The JSON Schema, or the tables of scenes/README.md.
 ExitStatus schema(bool tables);

@@ -46,6 +46,7 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--set", runOptions.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--threads", runOptions.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
+  verb->add_option("--plot", runOptions.plot, "PNG file for the charts of the results, as `plot` draws them");
   verb->callback([&] { status = run(runOptions); });
 
   verb = program.add_subcommand("validate", "Check a scene without computing");

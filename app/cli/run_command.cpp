@@ -200,6 +200,14 @@ ExitStatus run(const RunOptions& options) {
     else if (result->termination != base::TerminationType::converged && status == done)
       status = notConverged;
   }
+  if (!options.plot.empty() && !context.cancelRequested()) {
+    PlotOptions plotted;
+    plotted.scene = options.scene;
+    plotted.result = options.out;
+    plotted.studies = options.studies;
+    plotted.out = options.plot;
+    plot(plotted, "1280x720");
+  }
   return context.cancelRequested() ? cancelled : status;
 }
 

@@ -16,6 +16,8 @@ namespace {
 
 using base::TerminationType;
 
+constexpr int mostFollowedPoints = 200;
+
 class FixedFrequency final : public solvers::NonlinearSystem {
  public:
   /// `predictedFrom`: the steady state that the start was extrapolated from by linearisation, or empty.
@@ -199,7 +201,7 @@ class MotionSearch {
     continuation.maximumAngle = 1.2;
     continuation.tolerance = options_.tolerance;
     continuation.stepTolerance = options_.stepTolerance;
-    continuation.maximumPoints = options_.maximumRampSteps;
+    continuation.maximumPoints = mostFollowedPoints;
     solvers::ContinuationSolver solver(branch, continuation);
     solvers::BranchPoint last;
     const base::SolverReport report =

@@ -27,7 +27,7 @@ using plots::ResponsePlace;
 
 namespace {
 
-constexpr QSize insetSize{96, 72};
+constexpr QSize insetSize{120, 84};
 const QString amplitudeTopic = QStringLiteral("amplitudes");
 
 bool isCurve(const document::StudyState& study) {

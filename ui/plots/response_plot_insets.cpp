@@ -55,13 +55,13 @@ void ResponsePlot::placeInsets(const std::vector<QRectF>& taken) {
     const QSizeF size = item.picture->pixmap().deviceIndependentSize();
     std::optional<QRectF> best;
     double least = 0;
-    for (const double side : {1.0, -1.0}) {
+    for (const double away : {0.0, 1.0, 2.0, -1.0, -2.0, -3.0}) {  // widths to the right, or to the left
       for (const double slide : {0.0, 0.5, -0.5, 1.0, 1.5, 2.0}) {
-        const double x = side > 0 ? at.x() + gapToPlace : at.x() - gapToPlace - size.width();
-        const QRectF rect(QPointF(x, at.y() + (slide - 0.5) * size.height()), size);
+        const double gap = away < 0 ? -gapToPlace : gapToPlace;
+        const QRectF rect(at + QPointF(gap + away * size.width(), (slide - 0.5) * size.height()), size);
         const auto hides = [&](const QRectF& other) { return other.intersects(rect); };
         if (!frame.contains(rect) || std::any_of(occupied.begin(), occupied.end(), hides)) continue;
-        double hidden = std::abs(slide);
+        double hidden = std::abs(slide) + std::abs(away + (away < 0));
         for (const ResponseCurve& curve : p.curves)
           for (std::size_t i = 0; i < curve.omega.size(); ++i)
             hidden += rect.contains(pixelOf(curve.omega[i], curve.amplitude[i]));

@@ -35,7 +35,9 @@ QImage shapeImage(const mechanics::Model& model, const Eigen::VectorXd& position
   const render::FigureLayout layout(model);
   const Eigen::Matrix3Xd points = projected(layout.pose(positions), model.dimension);
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
-  constexpr double margin = 16;
+  // Everything shrinks with the picture, so that a small one is no blot.
+  const double scale = std::min(1.0, std::min(size.width(), size.height()) / 150.0);
+  const double margin = 16 * scale;
   const double extent = std::max(
       {(high.x() - low.x()) / (size.width() - 2 * margin), (high.y() - low.y()) / (size.height() - 2 * margin), 1e-12});
   const Eigen::Vector3d middle = (low + high) / 2;
@@ -51,7 +53,7 @@ QImage shapeImage(const mechanics::Model& model, const Eigen::VectorXd& position
   std::stable_sort(
       triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
   QColor fill = style.curve;
-  painter.setPen(QPen(style.background, 0.7));
+  painter.setPen(QPen(style.background, 0.7 * scale * scale));
   for (const auto& triangle : triangles) {
     const Eigen::Vector3d normal = (points.col(triangle[1]) - points.col(triangle[0]))
                                        .cross(points.col(triangle[2]) - points.col(triangle[0]))
@@ -65,14 +67,14 @@ QImage shapeImage(const mechanics::Model& model, const Eigen::VectorXd& position
     painter.setPen(QPen(style.mutedText, width));
     for (const auto& [from, to] : lines) painter.drawLine(at(from), at(to));
   };
-  drawLines(layout.links, 2.5);
-  drawLines(layout.coils, 1);
+  drawLines(layout.links, 2.5 * scale);
+  drawLines(layout.coils, scale);
   painter.setPen(Qt::NoPen);
   painter.setBrush(style.text);
   for (const auto& mass : model.pointMasses)
-    for (const int node : mass.nodes) painter.drawEllipse(at(node), 4, 4);
+    for (const int node : mass.nodes) painter.drawEllipse(at(node), 4 * scale, 4 * scale);
   painter.setBrush(style.shown);
-  for (const auto& probe : model.probes) painter.drawEllipse(at(probe.node), 2.5, 2.5);
+  for (const auto& probe : model.probes) painter.drawEllipse(at(probe.node), 2.5 * scale, 2.5 * scale);
   return image;
 }
 

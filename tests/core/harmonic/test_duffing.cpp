@@ -1,6 +1,7 @@
 #include <QtTest>
 
 #include "core/harmonic/frequency_response.hpp"
+#include "core/harmonic/periodic_motion.hpp"
 #include "tests/core/harmonic/duffing_oracle.hpp"
 #include "tests/core/harmonic/example_models.hpp"
 
@@ -59,6 +60,19 @@ double largestDifference(const ResponsePoint& point, const DuffingOracle::Orbit&
   return largest;
 }
 
+/// One motion; at no frequency if there is none.
+ResponsePoint solveAt(double omega, const harmonic::PeriodicMotionOptions& options) {
+  harmonic::HarmonicBalanceProblem problem(duffing(zeta, gamma, force), {harmonics, 64});
+  base::ExecutionContext context;
+  const auto motion = harmonic::solvePeriodicMotion(problem, omega, options, context);
+  ResponsePoint point;
+  if (!motion.report.converged()) return point;
+  point.omega = omega;
+  point.z = motion.z;
+  point.amplitudes = {harmonic::amplitude(problem, motion.z, 0)};
+  return point;
+}
+
 }  // namespace
 
 class TestDuffing : public QObject {
@@ -72,6 +86,8 @@ class TestDuffing : public QObject {
   void peakIsTheLargestAmplitude();
   void curveIsSmooth();
   void startsOnAnyBranchEnd();
+  void otherStartsLeadToOtherMotions();
+  void theResponseIsFollowedWhereTheRampFails();
 };
 
 void TestDuffing::wholeRangeIsTraced() {
@@ -170,6 +186,33 @@ void TestDuffing::startsOnAnyBranchEnd() {
     for (const ResponsePoint& point : response.points)
       QVERIFY(point.omega >= std::min(middle, to) && point.omega <= std::max(middle, to));
   }
+}
+
+/// Between the folds, the linear response leads to the small motion, and ten times its opposite to the large one.
+void TestDuffing::otherStartsLeadToOtherMotions() {
+  harmonic::PeriodicMotionOptions options;
+  const ResponsePoint small = solveAt(1.3, options);
+  options.startScale = -10;
+  const ResponsePoint large = solveAt(1.3, options);
+  for (const ResponsePoint& point : {small, large}) {
+    QCOMPARE(point.omega, 1.3);
+    const DuffingOracle::Orbit orbit = oracle.orbit(startOf(point), point.omega);
+    QVERIFY(largestDifference(point, orbit) < 1e-6);
+    QVERIFY(orbit.stable());
+  }
+  QVERIFY(small.amplitudes[0].maximumDisplacement < 0.2);
+  QVERIFY(large.amplitudes[0].maximumDisplacement > 1.2);
+}
+
+/// With so few iterations and steps that neither Newton's method nor the ramp can succeed.
+void TestDuffing::theResponseIsFollowedWhereTheRampFails() {
+  harmonic::PeriodicMotionOptions options;
+  options.maximumIterations = 4;
+  options.maximumRampSteps = 2;
+  const ResponsePoint point = solveAt(1.1, options);
+  QCOMPARE(point.omega, 1.1);
+  const DuffingOracle::Orbit orbit = oracle.orbit(startOf(point), point.omega);
+  QVERIFY(largestDifference(point, orbit) < 1e-6);
 }
 
 QTEST_GUILESS_MAIN(TestDuffing)

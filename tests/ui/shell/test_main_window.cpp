@@ -36,6 +36,7 @@ class TestMainWindow : public QObject {
   void aBadFileLeavesTheSceneIntact();
   void undoOfANonParameterEditMakesFresh();
   void clickingTheCurveShowsThatMotion();
+  void peaksShowTheirShapes();
   void anotherSceneTakesSelectionAndMotionAlong();
   void otherNodesPutTheMotionAsideUntilUndo();
   void aSliderWithoutMaximumKeepsItsEnd();
@@ -218,6 +219,22 @@ void TestMainWindow::clickingTheCurveShowsThatMotion() {
   QVERIFY(std::abs(window_->session().shown()->motion.omega - point.omega) < 0.02);
   // Its sensitivity comes behind it.
   QTRY_VERIFY_WITH_TIMEOUT(!window_->session().effects().empty(), patience);
+}
+
+void TestMainWindow::peaksShowTheirShapes() {
+  openScene();
+  runAll();
+  plots::ResponsePlot* plot = window_->response().plot();
+  QCOMPARE(plot->visibleInsets(), 0);
+  const auto actions = window_->response().findChildren<QAction*>();
+  const auto shapes =
+      std::find_if(actions.begin(), actions.end(), [](const QAction* a) { return a->text().contains("shapes"); });
+  QVERIFY(shapes != actions.end());
+  (*shapes)->trigger();
+  picture("peaks");
+  QTRY_COMPARE(plot->visibleInsets(), 1);
+  (*shapes)->trigger();
+  QTRY_COMPARE(plot->visibleInsets(), 0);
 }
 
 void TestMainWindow::anotherSceneTakesSelectionAndMotionAlong() {
