@@ -72,6 +72,9 @@ Moment findMoment(const MotionOptions& options) {
   const auto folder = std::filesystem::path(options.result) / study;
   const auto result = scene::HarmonicResult::read(scene, folder);
   if (result->points.empty()) throw InputError(folder.string(), "This result has no motion.");
+  if (result->provenance.sceneHash != scene::hashScene(scene))
+    std::cerr << folder.string() << ": The scene has changed since this was computed; what has no slider is drawn as "
+              << "the scene has it now.\n";
   const harmonic::ResponsePoint& point = widestSwing(*result);
   moment.model = result->problem->sharedModel();
   moment.problem = result->problemOf(point);

@@ -172,7 +172,13 @@ class TestCli : public QObject {
       QVERIFY(png.starts_with("\x89PNG"));
       QVERIFY(png.size() > 2000);
       fs::remove(file("picture.png").toStdString());
+      QVERIFY2(outcome.errors.isEmpty(), qPrintable(outcome.errors));
     }
+    const QStringList changed{"--set", "/drives/0/harmonics/0/amplitude=0.002", "--study", "motion"};
+    QCOMPARE(runCli(QStringList{"run", file("full.json"), "--out", file("changed")} + changed).status, 0);
+    const auto outcome =
+        runCli({"render", file("full.json"), "--out", file("picture.png"), "--result", file("changed")});
+    QVERIFY2(outcome.status == 0 && outcome.errors.contains("has changed since"), qPrintable(outcome.errors));
 #else
     const auto outcome = runCli({"render", duffing_, "--out", file("picture.png")});
     QCOMPARE(outcome.status, 2);

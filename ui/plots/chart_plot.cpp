@@ -23,6 +23,7 @@ using harmonic::MotionChart;
 constexpr std::array<QRgb, 3> seriesColors{0xff0072b2, 0xffd55e00, 0xff009e73};
 constexpr std::array<QRgb, 3> seriesColorsOnDark{0xff56b4e9, 0xffe69f00, 0xff2fc49b};
 constexpr double decadesShown = 12;
+constexpr int mostStemTicks = 15;
 
 /// The unit that `axis` is shown in and how many of it make the SI unit.
 LengthUnit unitOf(const ChartAxis& axis, double largest) {
@@ -124,6 +125,14 @@ void ChartPlot::redraw() {
   plot_->yAxis->setScaleType(chart_.y.logarithmic ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
   plot_->yAxis->setTicker(chart_.y.logarithmic ? QSharedPointer<QCPAxisTicker>(new QCPAxisTickerLog)
                                                : QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
+  // A tick for each stem, as long as their numbers have room.
+  QSharedPointer<QCPAxisTicker> ticker(new QCPAxisTicker);
+  if (chart_.style == MotionChart::Style::stems && largestOf(chart_, true) <= mostStemTicks) {
+    const QSharedPointer<QCPAxisTickerFixed> whole(new QCPAxisTickerFixed);
+    whole->setTickStep(1);
+    ticker = whole;
+  }
+  plot_->xAxis->setTicker(ticker);
   plot_->yAxis->setNumberFormat(chart_.y.logarithmic ? QStringLiteral("eb") : QStringLiteral("gb"));
   plot_->yAxis->setNumberPrecision(chart_.y.logarithmic ? 0 : 5);
   plot_->yAxis->ticker()->setTickCount(4);
