@@ -125,6 +125,7 @@ class ResponsePlot final : public QWidget {
   void redrawOverlays();
   void fitAmplitudes();
   void redrawMarkers();
+  void replotMarkers();
   void placeLabels();
   void placeInsets(const std::vector<QRectF>& taken);
   void updateChip();

@@ -45,6 +45,10 @@ void ResponsePlot::build() {
     curve->setSelectable(QCP::stNone);
     return curve;
   };
+  QCPLayer* main = p.plot->layer(QStringLiteral("main"));
+  p.plot->addLayer(QStringLiteral("markers"), main, QCustomPlot::limAbove);
+  p.markers = p.plot->layer(QStringLiteral("markers"));
+  p.markers->setMode(QCPLayer::lmBuffered);
   p.earlier = makeCurve();
   p.selected = makeCurve();
   p.unstable = makeCurve();
@@ -93,7 +97,16 @@ void ResponsePlot::build() {
   connect(p.plot, &QCustomPlot::mouseRelease, this, &ResponsePlot::release);
   connect(p.plot, &QCustomPlot::mouseDoubleClick, this, &ResponsePlot::fit);
   connect(p.plot, &QCustomPlot::mouseWheel, this, [this] { parts_->zoomed = true; });
+  for (QCPLayerable* marker : {static_cast<QCPLayerable*>(p.step), static_cast<QCPLayerable*>(p.shown),
+                               static_cast<QCPLayerable*>(p.predicted), static_cast<QCPLayerable*>(p.hover),
+                               static_cast<QCPLayerable*>(p.cursor), static_cast<QCPLayerable*>(p.cursorLabel),
+                               static_cast<QCPLayerable*>(p.predictedLabel), static_cast<QCPLayerable*>(p.hoverLabel)})
+    marker->setLayer(p.markers);
   connect(p.plot, &QCustomPlot::beforeReplot, this, &ResponsePlot::placeLabels);
+  connect(p.plot, &QCustomPlot::afterReplot, this, [this] {
+    parts_->outdated = false;
+    parts_->drawnRanges = {parts_->plot->xAxis->range(), parts_->plot->yAxis->range()};
+  });
 }
 
 void ResponsePlot::applyStyle() {

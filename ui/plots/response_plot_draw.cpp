@@ -1,3 +1,4 @@
+#include <QTimer>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,6 +63,7 @@ void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double
 
 void ResponsePlot::redrawCurves() {
   Parts& p = *parts_;
+  p.outdated = true;
   enlargeToFit();
   const double perOmega = frequencyFactor();
   const double perMetre = p.unit.perMetre;
@@ -101,6 +103,7 @@ void ResponsePlot::redrawCurves() {
       into.amplitude.push_back(curve->amplitude[i]);
       auto* label = new QCPItemText(p.plot);
       label->setSelectable(false);
+      label->setLayer(p.markers);
       QFont small = font();
       small.setPointSizeF(font().pointSizeF() * 0.85);
       label->setFont(small);
@@ -117,6 +120,7 @@ void ResponsePlot::redrawCurves() {
 
 void ResponsePlot::redrawOverlays() {
   Parts& p = *parts_;
+  p.outdated = true;
   for (QCPCurve* curve : p.overlayCurves) p.plot->removePlottable(curve);
   p.overlayCurves.clear();
   p.plot->legend->clearItems();
@@ -174,7 +178,23 @@ void ResponsePlot::redrawMarkers() {
     p.cursorLabel->position->setCoords(x, 0.0);
     p.cursorLabel->setText(QStringLiteral("ω = %1").arg(formatFrequency(omega, p.hertz)));
   }
-  p.plot->replot(QCustomPlot::rpQueuedReplot);
+  replotMarkers();
+}
+
+/// Only the markers, once the events at hand are done, unless the rest has changed as well.
+void ResponsePlot::replotMarkers() {
+  Parts& p = *parts_;
+  if (p.outdated || p.drawnRanges != std::array{p.plot->xAxis->range(), p.plot->yAxis->range()}) {
+    p.plot->replot(QCustomPlot::rpQueuedReplot);
+    return;
+  }
+  if (p.markersQueued) return;
+  p.markersQueued = true;
+  QTimer::singleShot(0, this, [this] {
+    parts_->markersQueued = false;
+    placeLabels();
+    parts_->markers->replot();
+  });
 }
 
 /// The predicted amplitude right of its marker. Peaks first, from the highest down; a label that would cover an earlier

@@ -24,6 +24,7 @@ void ResponsePlot::setInsets(std::vector<ResponseInset> insets) {
     auto* picture = new QCPItemPixmap(p.plot);
     for (QCPAbstractItem* item : {static_cast<QCPAbstractItem*>(leader), static_cast<QCPAbstractItem*>(picture)}) {
       item->setSelectable(false);
+      item->setLayer(p.markers);
       item->setVisible(false);  // until there is a place for it
     }
     for (QCPItemPosition* position : {leader->start, leader->end, picture->topLeft})
@@ -32,7 +33,7 @@ void ResponsePlot::setInsets(std::vector<ResponseInset> insets) {
     picture->setScaled(false);
     p.insets.push_back({inset.place, picture, leader});
   }
-  p.plot->replot(QCustomPlot::rpQueuedReplot);
+  replotMarkers();
 }
 
 int ResponsePlot::visibleInsets() const {

@@ -149,7 +149,7 @@ void ResponsePlot::readOut(const QPointF& pixel) {
     else
       Q_EMIT readoutChanged({});
   }
-  p.plot->replot(QCustomPlot::rpQueuedReplot);
+  replotMarkers();
 }
 
 }  // namespace pliant::plots

@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QStackedLayout>
+#include <array>
 #include <vector>
 
 #include "ui/plots/custom_plot.hpp"
@@ -38,6 +39,12 @@ struct ResponsePlot::Parts {
   QPushButton* emptyAction = nullptr;
   QCustomPlot* plot = nullptr;
   QPushButton* chip = nullptr;
+
+  /// What moves while a slider is dragged, labels that make room for it included: drawn again without the rest.
+  QCPLayer* markers = nullptr;
+  bool markersQueued = false;
+  bool outdated = true;                 ///< more than the markers has changed since all was drawn
+  std::array<QCPRange, 2> drawnRanges;  ///< of the axes when all was drawn
 
   QCPCurve* earlier = nullptr;    ///< the curve before this one, grey
   std::vector<QCPCurve*> others;  ///< of nodes that are not selected
