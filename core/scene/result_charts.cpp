@@ -83,7 +83,10 @@ struct Found {
   std::string study;
   std::filesystem::path folder;
   Json summary;
-  std::string kind() const { return summary.value("kind", ""); }
+  std::string kind() const {
+    const auto known = summary.find("kind");
+    return known != summary.end() && known->is_string() ? known->get<std::string>() : std::string();
+  }
 };
 
 std::vector<Found> findResults(const Scene& scene, const std::filesystem::path& folder,
@@ -103,7 +106,7 @@ std::vector<Found> findResults(const Scene& scene, const std::filesystem::path& 
 class ResponseChart {
  public:
   ResponseChart(const Scene& scene, const ResponseQuantity& quantity) : quantity_(quantity) {
-    chart_.title = scene.normalized()["title"];
+    chart_.title = scene.normalized().at("title").get<std::string>();
     chart_.xLabel = "Frequency ω [rad/s]";
     chart_.yLabel = quantity.label;
   }
@@ -128,7 +131,8 @@ class ResponseChart {
   void addTime(const Found& found) {
     if (!quantity_.json) return;
     for (const Json& probe : found.summary.at("probes")) {
-      addSeries(found.study + ", " + probe.at("name").get<std::string>(), Mark::points, {found.summary.at("frequency")},
+      addSeries(found.study + ", " + probe.at("name").get<std::string>(), Mark::points,
+                {found.summary.at("frequency").get<double>()},
                 {quantity_.perUnit * probe.at(quantity_.json).get<double>()});
       ++group_;
     }
@@ -185,7 +189,7 @@ ResultSeries comparedSeries(const std::string& name, const Json& solutions, cons
   for (const Json& solution : solutions) {
     const double value = solution.value(y, 0.0);
     if (!(value > 0) || solution.at("termination") != "converged") continue;
-    series.x.push_back(solution.at(x));
+    series.x.push_back(solution.at(x).get<double>());
     series.y.push_back(value);
   }
   return series;
@@ -232,20 +236,24 @@ std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem:
   const auto* chosen =
       std::find_if(quantities.begin(), quantities.end(), [&](const auto& known) { return known.key == quantity; });
   if (chosen == quantities.end()) throw InputError("--quantity", "There is no quantity " + quote(quantity) + ".");
-  ResponseChart response(scene, *chosen);
-  std::vector<Found> comparisons;
-  for (const Found& found : findResults(scene, folder, studies)) {
-    if (found.kind() == "comparison")
-      comparisons.push_back(found);
-    else if (found.kind() == "harmonic" || found.kind() == "time")
-      response.add(found);
-    else if (!studies.empty())
-      throw InputError(folder.string(), "The result of " + quote(found.study) + " has no chart.");
-  }
   std::vector<ResultChart> charts;
-  if (ResultChart chart = response.take(); !chart.series.empty()) charts.push_back(std::move(chart));
-  if (!comparisons.empty())
-    for (ResultChart& chart : comparisonCharts(comparisons)) charts.push_back(std::move(chart));
+  try {
+    ResponseChart response(scene, *chosen);
+    std::vector<Found> comparisons;
+    for (const Found& found : findResults(scene, folder, studies)) {
+      if (found.kind() == "comparison")
+        comparisons.push_back(found);
+      else if (found.kind() == "harmonic" || found.kind() == "time")
+        response.add(found);
+      else if (!studies.empty())
+        throw InputError(folder.string(), "The result of " + quote(found.study) + " has no chart.");
+    }
+    if (ResultChart chart = response.take(); !chart.series.empty()) charts.push_back(std::move(chart));
+    if (!comparisons.empty())
+      for (ResultChart& chart : comparisonCharts(comparisons)) charts.push_back(std::move(chart));
+  } catch (const Json::exception&) {
+    throw InputError(folder.string(), "A result in this folder lacks what a chart needs; run its study again.");
+  }
   if (charts.empty()) throw InputError(folder.string(), "This folder has no result that a chart can show.");
   return charts;
 }

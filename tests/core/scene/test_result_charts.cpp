@@ -2,6 +2,7 @@
 #include <QtTest>
 
 #include "core/base/error.hpp"
+#include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/result_charts.hpp"
 #include "core/scene/study.hpp"
@@ -109,6 +110,11 @@ class TestResultCharts : public QObject {
     QVERIFY(message({"modes"}, "path-length").find("has no chart") != std::string::npos);
     QVERIFY(message({"nothing"}, "path-length").find("no result of the study") != std::string::npos);
     QVERIFY(message({}, "colour").find("no quantity") != std::string::npos);
+    const auto summary = folder() / "comparison" / "summary.json";
+    const std::string whole = scene::readTextFile(summary);
+    scene::writeTextFile(summary, R"({"kind": "comparison"})");
+    QVERIFY(message({"comparison"}, "path-length").find("run its study again") != std::string::npos);
+    scene::writeTextFile(summary, whole);
     QVERIFY(message({"curve"}, "strain").find("no result that a chart can show") != std::string::npos);
   }
 
