@@ -46,7 +46,6 @@ class Table {
   }
 
   const std::vector<std::string>& names() const { return names_; }
-  std::size_t rowCount() const { return rows_.size(); }
   std::vector<std::string> texts(std::string_view column) const {
     std::vector<std::string> result;
     for (const auto& row : rows_) result.emplace_back(row[indexOf(column)]);

@@ -79,6 +79,16 @@ void makeLogarithmic(vtkAxis* axis, const scene::ResultChart& chart, std::vector
   axis->LogScaleOn();
 }
 
+/// From zero to a little above the largest value, so that a peak's marker is not cut.
+void leaveRoomAbove(vtkAxis* axis, const scene::ResultChart& chart) {
+  double high = 0;
+  for (const scene::ResultSeries& series : chart.series)
+    for (const double value : series.y) high = std::max(high, value);
+  if (!(high > 0)) return;
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(0, 1.06 * high);
+}
+
 /// Ticks at the values themselves where they are few: 64, 128, 256 rather than round numbers.
 void putTicksAtValues(vtkAxis* axis, const scene::ResultChart& chart) {
   constexpr std::size_t most = 12;
@@ -123,7 +133,10 @@ void drawCharts(const std::vector<scene::ResultChart>& charts, int width, int he
       styleAxis(chart->GetAxis(vtkAxis::LEFT), data.yLabel, colors);
       if (data.logarithmicX) makeLogarithmic(chart->GetAxis(vtkAxis::BOTTOM), data, &scene::ResultSeries::x);
       putTicksAtValues(chart->GetAxis(vtkAxis::BOTTOM), data);
-      if (data.logarithmicY) makeLogarithmic(chart->GetAxis(vtkAxis::LEFT), data, &scene::ResultSeries::y);
+      if (data.logarithmicY)
+        makeLogarithmic(chart->GetAxis(vtkAxis::LEFT), data, &scene::ResultSeries::y);
+      else
+        leaveRoomAbove(chart->GetAxis(vtkAxis::LEFT), data);
       for (const scene::ResultSeries& series : data.series) addSeries(chart, series);
       chart->SetShowLegend(true);
       setTextStyle(chart->GetLegend()->GetLabelProperties(), 12, colors.text);
