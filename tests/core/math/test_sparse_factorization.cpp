@@ -66,6 +66,7 @@ class SparseFactorizationTest : public QObject {
     QVERIFY(relativeDifference(x, reference.solve(b)) < 1e-10);
     QVERIFY(factorization.backwardError(x, b) < 1e-15);
     QVERIFY(factorization.backwardError(1.001 * x, b) > 1e-6);
+    QVERIFY(relativeDifference(factorization.solveRoughly(b), x) < 1e-8);
     const Eigen::MatrixXd transposed = factorization.solveTransposed(b);
     QVERIFY(relativeDifference(matrix.transpose() * transposed, b) < 1e-12);
     QCOMPARE(static_cast<double>(factorization.determinantSign()), reference.signDeterminant());
