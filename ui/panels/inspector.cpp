@@ -50,8 +50,7 @@ Inspector::Inspector(document::Document& document, jobs::MotionSession& session,
   kind_ = row(tr("Is"));
   path_ = row(tr("Path length"));
   reach_ = row(tr("Displacement"));
-  for (auto changed : {&jobs::MotionSession::shownChanged, &jobs::MotionSession::predictionChanged})
-    connect(&session_, changed, this, &Inspector::refresh);
+  connect(&session_, &jobs::MotionSession::shownChanged, this, &Inspector::refresh);
   connect(&session_, &jobs::MotionSession::nodeChanged, this, &Inspector::refresh);
   connect(&document_, &document::Document::sceneReplaced, this, &Inspector::refresh);
   connect(&document_, &document::Document::sceneEdited, this, &Inspector::refresh);

@@ -12,6 +12,7 @@
 #include "ui/panels/icon.hpp"
 #include "ui/panels/parameter_row.hpp"
 #include "ui/panels/parameter_slider.hpp"
+#include "ui/panels/text_line.hpp"
 #include "ui/plots/plot_style.hpp"
 
 namespace pliant::panels {
@@ -36,11 +37,7 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   QFont large = font();
   large.setPointSizeF(font().pointSizeF() * 1.6);
   solved_->setFont(large);
-  predicted_ = new QLabel;
-  // A long text does not widen the dock, and the sliders stay where they are as it comes and goes.
-  QSizePolicy predictedPolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  predictedPolicy.setRetainSizeWhenHidden(true);
-  predicted_->setSizePolicy(predictedPolicy);
+  predicted_ = new TextLine;
   note_ = new QLabel;
   note_->setWordWrap(true);
   note_->setForegroundRole(QPalette::PlaceholderText);
@@ -173,19 +170,14 @@ void ParameterPanel::refreshSummary() {
   }
   const double amplitude = session_.shownAmplitude();
   solved_->setText(shown ? plots::formatLength(amplitude) : QStringLiteral("–"));
-  const plots::PlotStyle style = plots::plotStyle(palette());
-  const auto predicted = session_.predictedAmplitude();
-  predicted_->setVisible(predicted.has_value());
-  if (predicted) {
+  QString prediction;
+  if (const auto predicted = session_.predictedAmplitude()) {
     const double change = amplitude > 0 ? 100 * (*predicted / amplitude - 1) : 0;
-    predicted_->setText(QStringLiteral("<span style=\"color:%1\">%2</span>")
-                            .arg(style.warning.name(), tr("predicted %1 (%2%3 %)")
-                                                           .arg(plots::formatLength(*predicted),
-                                                                change < 0 ? QStringLiteral("−") : QStringLiteral("+"))
-                                                           .arg(std::abs(change), 0, 'f', 1)));
-  } else {
-    predicted_->setText(QStringLiteral(" "));
+    prediction = tr("predicted %1 (%2%3 %)")
+                     .arg(plots::formatLength(*predicted), change < 0 ? QStringLiteral("−") : QStringLiteral("+"))
+                     .arg(std::abs(change), 0, 'f', 1);
   }
+  predicted_->setText(prediction, plots::plotStyle(palette()).warning);
   const QString obstacle = session_.predictionObstacle();
   note_->setText(obstacle);
   note_->setVisible(!obstacle.isEmpty());

@@ -13,6 +13,7 @@ class QVBoxLayout;
 namespace pliant::panels {
 
 class ParameterRow;
+class TextLine;
 
 /// The sliders of all design parameters, and above them the amplitude of the selected node: solved, and as predicted
 /// for the sliders' places, with the button that solves anew.
@@ -39,7 +40,7 @@ class ParameterPanel final : public QWidget {
   jobs::MotionSession& session_;
   QLabel* of_;
   QLabel* solved_;
-  QLabel* predicted_;
+  TextLine* predicted_;
   QLabel* note_;
   QPushButton* update_;
   QLabel* empty_;

@@ -7,7 +7,7 @@
 
 #include "ui/render/primitives.hpp"
 
-class vtkBillboardTextActor3D;
+class vtkTextActor;
 
 namespace pliant::render {
 
@@ -26,7 +26,7 @@ class Gizmo {
   double ratio_ = 1;
   vtkNew<vtkRenderer> renderer_;
   std::array<vtkNew<vtkActor>, 3> axes_;
-  std::array<vtkNew<vtkBillboardTextActor3D>, 3> letters_;
+  std::array<vtkNew<vtkTextActor>, 3> letters_;
 };
 
 }  // namespace pliant::render

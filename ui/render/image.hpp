@@ -6,7 +6,10 @@
 
 namespace pliant::render {
 
-/// Opaque pixels, rows from the top, red, green, blue and alpha bytes.
+/// A pixel: red, green, blue and alpha bytes, or one word 0xaarrggbb, which is what screens are made of.
+enum class ChannelOrder { rgbaBytes, argbWord };
+
+/// Opaque pixels, rows from the top; in bytes unless words were asked for.
 struct Image {
   int width = 0;
   int height = 0;

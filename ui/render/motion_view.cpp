@@ -1,7 +1,9 @@
 #include "ui/render/motion_view.hpp"
 
+#include <SMP/Common/vtkSMPToolsAPI.h>
 #include <vtkCamera.h>
 #include <vtkCommand.h>
+#include <vtkCullerCollection.h>
 #include <vtkLight.h>
 #include <vtkRenderWindow.h>
 #include <vtkTextActor.h>
@@ -88,7 +90,10 @@ struct MotionView::Parts {
   Points pose;
 
   Parts() {
+    // What is drawn is small: waking VTK's pool of threads costs more than it saves, and the solver wants the cores.
+    vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
     renderer->AutomaticLightCreationOff();
+    renderer->GetCullers()->RemoveAllItems();  // nothing is worth the pass over all bounds
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();
     light->SetPosition(-0.45, 0.65, 1.0);

@@ -58,10 +58,10 @@ void OffscreenTarget::setSize(int width, int height) {
   parts_->window->SetSize(width, height);
 }
 
-void OffscreenTarget::render(Image& image) {
+void OffscreenTarget::render(Image& image, ChannelOrder order) {
   parts_->context->makeCurrent();
   parts_->window->Render();
-  parts_->window->readPixels(image);
+  parts_->window->readPixels(image, order);
 }
 
 }  // namespace pliant::render

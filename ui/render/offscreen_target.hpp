@@ -24,7 +24,7 @@ class OffscreenTarget {
   /// Throws base::InputError if the size is not positive or too large.
   void setSize(int width, int height);
   /// Draws what is attached to window() and returns the pixels; `image` is reused from one call to the next.
-  void render(Image& image);
+  void render(Image& image, ChannelOrder order = ChannelOrder::rgbaBytes);
 
  private:
   struct Parts;

@@ -29,7 +29,7 @@ void OpenGLWindow::OpenGLInitContext() {
   this->Initialized = true;
 }
 
-void OpenGLWindow::readPixels(Image& image) {
+void OpenGLWindow::readPixels(Image& image, ChannelOrder order) {
   const int* size = GetSize();
   const std::size_t row = 4 * static_cast<std::size_t>(size[0]);
   image.width = size[0];
@@ -40,12 +40,15 @@ void OpenGLWindow::readPixels(Image& image) {
   GetDisplayFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
   GetDisplayFramebuffer()->ActivateReadBuffer(0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size[0], size[1], GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+  const bool bytes = order == ChannelOrder::rgbaBytes;
+  glReadPixels(0, 0, size[0], size[1], bytes ? GL_RGBA : GL_BGRA,
+               bytes ? GL_UNSIGNED_BYTE : GL_UNSIGNED_INT_8_8_8_8_REV, image.pixels.data());
   GetState()->PopReadFramebufferBinding();
   // OpenGL counts rows from the bottom.
   for (int top = 0, bottom = size[1] - 1; top < bottom; ++top, --bottom)
     std::swap_ranges(&image.pixels[top * row], &image.pixels[top * row] + row, &image.pixels[bottom * row]);
-  for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+  if (bytes)
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
 }
 
 }  // namespace pliant::render

@@ -19,7 +19,7 @@ class OpenGLWindow : public vtkGenericOpenGLRenderWindow {
   void MakeCurrent() override = 0;
 
   /// The picture last rendered.
-  void readPixels(Image& image);
+  void readPixels(Image& image, ChannelOrder order = ChannelOrder::rgbaBytes);
 
  protected:
   OpenGLWindow();

@@ -61,10 +61,11 @@ class SoftSurface final : public RenderSurface {
     if (!upToDate_) {
       // Qt's context, if one is current on this thread, would be in the way of Mesa's.
       if (QOpenGLContext* other = QOpenGLContext::currentContext()) other->doneCurrent();
-      target_.render(pixels_);
+      target_.render(pixels_, render::ChannelOrder::argbWord);
       upToDate_ = true;
     }
-    QImage image(pixels_.pixels.data(), pixels_.width, pixels_.height, QImage::Format_RGBX8888);
+    // The format of the backing store: painting is copying.
+    QImage image(pixels_.pixels.data(), pixels_.width, pixels_.height, QImage::Format_RGB32);
     image.setDevicePixelRatio(ratio_);
     return image;
   }
