@@ -36,7 +36,7 @@ constexpr std::size_t multipliersKept = 8;
 
 struct HillExponent {
   Exponent exponent;
-  double topEnergy;  ///< share of the highest harmonic
+  double topEnergy;  ///< share of each coordinate's highest harmonic
 };
 
 Vector firstVector(Eigen::Index size) {
@@ -44,13 +44,16 @@ Vector firstVector(Eigen::Index size) {
   return Vector::NullaryExpr(size, [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; });
 }
 
-double topEnergy(const math::HarmonicBasis& basis, const Eigen::VectorXcd& p) {
+double topEnergy(const HarmonicBalanceProblem& problem, const Eigen::VectorXcd& p) {
+  const Eigen::Index width = problem.basis().size();
   double top = 0;
   double all = 0;
-  for (Eigen::Index start = 0; start < p.size(); start += basis.size()) {
+  for (std::size_t f = 0; f < problem.coordinateHarmonics().size(); ++f) {
     // In terms of e^{ikτ}: half of the squares of sine and cosine, all of the constant's.
-    all += std::norm(p[start]) + 0.5 * p.segment(start + 1, basis.size() - 1).squaredNorm();
-    if (basis.harmonics() > 0) top += 0.5 * p.segment(start + basis.size() - 2, 2).squaredNorm();
+    const auto coefficients = p.segment(static_cast<Eigen::Index>(f) * width, width);
+    all += std::norm(coefficients[0]) + 0.5 * coefficients.tail(width - 1).squaredNorm();
+    const int highest = problem.coordinateHarmonics()[f];
+    if (highest > 0) top += 0.5 * coefficients.segment(2 * highest - 1, 2).squaredNorm();
   }
   return all > 0 ? top / all : 1.0;
 }
@@ -81,7 +84,7 @@ class HillSearch {
     for (Eigen::Index i = 0; i < pairs_.values.size(); ++i) {
       if (!converged(i)) continue;
       const Eigen::VectorXcd p = arnoldi_.expand(pairs_.vectors.col(i)).tail(problem_.size());
-      list.push_back({1.0 / pairs_.values[i], topEnergy(problem_.basis(), p)});
+      list.push_back({1.0 / pairs_.values[i], topEnergy(problem_, p)});
     }
     return list;
   }

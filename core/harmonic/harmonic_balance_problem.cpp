@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/harmonic_jacobian.hpp"
@@ -72,6 +73,8 @@ struct HarmonicBalanceProblem::Structure {
   mechanics::ElasticAssembler assembler;
   SparseMatrix massToFree;  ///< coordinates x nFree
   SparseMatrix freeMass;
+  std::vector<int> coordinateHarmonics;
+  std::vector<Eigen::Index> unknowns;  ///< where they are in z; empty if all coefficients are
   HarmonicJacobian jacobian;
   Matrix synthesis;  ///< Γ, its first row repeated up to whole packets
 
@@ -83,19 +86,38 @@ struct HarmonicBalanceProblem::Structure {
   Matrix loadCoefficients;  ///< f̂ of the free coordinates with all of the drive, (2H+1) x nFree
   double inertiaScale = 0;  ///< a ‖m‖ of forceScale [kg m]
 
-  Structure(std::shared_ptr<const Model> model_, const math::HarmonicBasis& basis_, int drivePeriods_)
+  Structure(std::shared_ptr<const Model> model_, const math::HarmonicBasis& basis_, int drivePeriods_,
+            std::vector<int> coordinateHarmonics_)
       : model(std::move(model_)),
         basis(basis_),
         drivePeriods(drivePeriods_),
         assembler(model),
         massToFree(freeColumns(*model, model->massMatrix())),
         freeMass(freeRows(*model, massToFree)),
-        jacobian(basis, assembler, freeMass) {
+        coordinateHarmonics(std::move(coordinateHarmonics_)),
+        unknowns(findUnknowns()),
+        jacobian(basis, assembler, freeMass, coordinateHarmonics) {
     const int padded = mechanics::ElasticAssembler::paddedRows(basis.samples());
     synthesis.resize(padded, basis.size());
     for (int i = 0; i < padded; ++i) synthesis.row(i) = basis.synthesis().row(i < basis.samples() ? i : 0);
     sampleDrives(padded);
     sampleLoads();
+  }
+
+  std::vector<Eigen::Index> findUnknowns() {
+    if (coordinateHarmonics.empty())
+      coordinateHarmonics.assign(static_cast<std::size_t>(model->dofs.freeCount()), basis.harmonics());
+    if (static_cast<int>(coordinateHarmonics.size()) != model->dofs.freeCount())
+      throw std::invalid_argument("numbers of harmonics for other coordinates than the free ones");
+    std::vector<Eigen::Index> found;
+    for (std::size_t f = 0; f < coordinateHarmonics.size(); ++f) {
+      if (coordinateHarmonics[f] < 0 || coordinateHarmonics[f] > basis.harmonics())
+        throw std::invalid_argument("a coordinate with more harmonics than the basis");
+      for (int i = 0; i <= 2 * coordinateHarmonics[f]; ++i)
+        found.push_back(static_cast<Eigen::Index>(f) * basis.size() + i);
+    }
+    if (found.size() == coordinateHarmonics.size() * static_cast<std::size_t>(basis.size())) found.clear();
+    return found;
   }
 
   /// τ of the drive at a sample.
@@ -157,8 +179,8 @@ struct HarmonicBalanceProblem::Workspace {
 };
 
 HarmonicBalanceProblem::HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis,
-                                               int drivePeriods)
-    : structure_(std::make_shared<Structure>(std::move(model), basis, drivePeriods)),
+                                               int drivePeriods, std::vector<int> coordinateHarmonics)
+    : structure_(std::make_shared<Structure>(std::move(model), basis, drivePeriods, std::move(coordinateHarmonics))),
       workspace_(std::make_unique<Workspace>()) {}
 
 HarmonicBalanceProblem::HarmonicBalanceProblem(const HarmonicBalanceProblem& other)
@@ -178,12 +200,42 @@ const Model& HarmonicBalanceProblem::model() const { return *structure_->model; 
 std::shared_ptr<const Model> HarmonicBalanceProblem::sharedModel() const { return structure_->model; }
 const math::HarmonicBasis& HarmonicBalanceProblem::basis() const { return structure_->basis; }
 const mechanics::ElasticAssembler& HarmonicBalanceProblem::assembler() const { return structure_->assembler; }
-Eigen::Index HarmonicBalanceProblem::size() const { return structure_->jacobian.size(); }
+Eigen::Index HarmonicBalanceProblem::size() const {
+  return static_cast<Eigen::Index>(basis().size()) * model().dofs.freeCount();
+}
+const std::vector<int>& HarmonicBalanceProblem::coordinateHarmonics() const { return structure_->coordinateHarmonics; }
+Eigen::Index HarmonicBalanceProblem::unknownCount() const { return structure_->jacobian.size(); }
 int HarmonicBalanceProblem::drivePeriods() const { return structure_->drivePeriods; }
 
 HarmonicBalanceProblem HarmonicBalanceProblem::withDrivePeriods(int drivePeriods) const {
   const auto scaled = [&](int count) { return count * drivePeriods / structure_->drivePeriods; };
-  return {structure_->model, {scaled(basis().harmonics()), scaled(basis().samples())}, drivePeriods};
+  std::vector<int> harmonics;
+  for (const int count : structure_->coordinateHarmonics) harmonics.push_back(scaled(count));
+  return {structure_->model,
+          {scaled(basis().harmonics()), scaled(basis().samples())},
+          drivePeriods,
+          std::move(harmonics)};
+}
+
+Matrix HarmonicBalanceProblem::restricted(const Matrix& x) const {
+  return structure_->unknowns.empty() ? x : Matrix(x(structure_->unknowns, Eigen::all));
+}
+
+Matrix HarmonicBalanceProblem::expanded(const Matrix& x) const {
+  if (structure_->unknowns.empty()) return x;
+  Matrix all = Matrix::Zero(size(), x.cols());
+  all(structure_->unknowns, Eigen::all) = x;
+  return all;
+}
+
+Vector HarmonicBalanceProblem::withoutLeftOut(Vector z) const {
+  if (!structure_->unknowns.empty())
+    for (std::size_t f = 0; f < structure_->coordinateHarmonics.size(); ++f) {
+      const Eigen::Index end = (static_cast<Eigen::Index>(f) + 1) * basis().size();
+      const Eigen::Index count = 2 * (basis().harmonics() - structure_->coordinateHarmonics[f]);
+      z.segment(end - count, count).setZero();
+    }
+  return z;
 }
 
 Vector HarmonicBalanceProblem::stretched(const Vector& z, int drivePeriods) const {
@@ -280,13 +332,13 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, V
   const Matrix elasticRate = s.basis.derivative(elastic);
   const Matrix velocity = s.basis.derivative(inertial);
   const Matrix acceleration = s.basis.secondDerivative(inertial);
-  h = (omega * omega * acceleration + massDamping * omega * velocity + elastic +
-       stiffnessDamping * omega * elasticRate - scaledLoads(s.loadCoefficients, driveFraction_))
-          .reshaped();
+  h = withoutLeftOut((omega * omega * acceleration + massDamping * omega * velocity + elastic +
+                      stiffnessDamping * omega * elasticRate - scaledLoads(s.loadCoefficients, driveFraction_))
+                         .reshaped());
   if (frequencyDerivative)
-    *frequencyDerivative =
+    *frequencyDerivative = withoutLeftOut(
         (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped() /
-        s.drivePeriods;
+        s.drivePeriods);
   if (jacobian) s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
 }
 
@@ -322,7 +374,7 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double drive
     const Matrix forces = workspace_->gradient.topRows(samples)(Eigen::all, m.dofs.freeCoordinates);
     derivative += rate * omega * s.basis.derivative(s.basis.analysis() * forces);
   }
-  return derivative.reshaped();
+  return withoutLeftOut(derivative.reshaped());
 }
 
 Matrix HarmonicBalanceProblem::trajectories(const Vector& z) const {

@@ -47,12 +47,18 @@ struct StressSource {
 /// same: in the formula, ω/ν stands for ω. Mass and damping that couple
 /// free to prescribed coordinates are included.
 ///
+/// Coordinates may have fewer harmonics than the basis (`coordinateHarmonics`): the coefficients of those left out stay
+/// zero, and so do their equations. ∂h/∂z is then of the `unknowns` alone, which `restricted` takes out of a vector and
+/// `expanded` puts back.
+///
 /// Threads: `residual`, `linearize` and `parameterDerivative` use working memory of the object, so one thread at a time
 /// may call them; all other const members may be called from any thread meanwhile. A copy has working memory of its
 /// own.
 class HarmonicBalanceProblem {
  public:
-  HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis, int drivePeriods = 1);
+  /// `coordinateHarmonics`: 1 to H for each free coordinate; empty: H for all.
+  HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis, int drivePeriods = 1,
+                         std::vector<int> coordinateHarmonics = {});
   HarmonicBalanceProblem(const HarmonicBalanceProblem& other);
   HarmonicBalanceProblem(HarmonicBalanceProblem&&) noexcept;
   HarmonicBalanceProblem& operator=(HarmonicBalanceProblem other) noexcept;
@@ -68,8 +74,17 @@ class HarmonicBalanceProblem {
   /// proportion; `stretched` gives this problem's motions as its.
   HarmonicBalanceProblem withDrivePeriods(int drivePeriods) const;
   Vector stretched(const Vector& z, int drivePeriods) const;
-  /// Number of unknowns, (2H+1) nFree.
+  /// Number of coefficients, (2H+1) nFree.
   Eigen::Index size() const;
+  /// Harmonics of each free coordinate.
+  const std::vector<int>& coordinateHarmonics() const;
+  /// Number of unknowns: of coefficients that are not left out.
+  Eigen::Index unknownCount() const;
+  /// The rows of `x` (size() x m) that belong to unknowns; and back, with zeros for the rest.
+  Matrix restricted(const Matrix& x) const;
+  Matrix expanded(const Matrix& x) const;
+  /// `z` with zeros for the coefficients that are left out.
+  Vector withoutLeftOut(Vector z) const;
 
   /// M of the free coordinates, nFree square [kg].
   const SparseMatrix& freeMass() const;
@@ -97,7 +112,7 @@ class HarmonicBalanceProblem {
 
   /// h(z, ω), size().
   Vector residual(const Vector& z, double omega) const;
-  /// h, ∂h/∂z (pattern constant) and ∂h/∂ω at once; null outputs are not computed. ∂h/∂z is exact unless `stresses` are
+  /// h, ∂h/∂z (unknownCount() square, pattern constant) and ∂h/∂ω at once; null outputs are not computed. ∂h/∂z is exact unless `stresses` are
   /// given: with those of a better motion it makes a better step from a prediction or a Newton iterate than its own.
   void linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian, Vector* frequencyDerivative,
                  const StressSource* stresses = nullptr) const;

@@ -61,46 +61,53 @@ std::vector<Pair> collectPairs(const mechanics::ElasticAssembler& assembler, con
 }  // namespace
 
 HarmonicJacobian::HarmonicJacobian(const math::HarmonicBasis& basis, const mechanics::ElasticAssembler& assembler,
-                                   const SparseMatrix& mass)
+                                   const SparseMatrix& mass, const std::vector<int>& coordinateHarmonics)
     : harmonics_(basis.harmonics()), transform_(coefficientTransform(basis.harmonics(), basis.samples())) {
   const int count = static_cast<int>(mass.cols());
-  const int width = basis.size();
   const std::vector<Pair> pairs = collectPairs(assembler, mass);
+  const auto width = [&](int coordinate) { return 2 * coordinateHarmonics[coordinate] + 1; };
 
   std::vector<std::vector<int>> neighbors(count);
   for (const Pair& pair : pairs) {
     neighbors[pair.column].push_back(pair.row);
     if (pair.row != pair.column) neighbors[pair.row].push_back(pair.column);
   }
-  std::vector<long> starts(count + 1, 0);
+  std::vector<int> offsets(count + 1, 0);         // first unknown of each coordinate
+  std::vector<long> starts(count + 1, 0);         // first entry
+  std::vector<long> strides(count, 0);            // entries a column
+  std::vector<std::vector<long>> places(count);   // of each neighbour's rows in a column
   for (int c = 0; c < count; ++c) {
     std::sort(neighbors[c].begin(), neighbors[c].end());
-    starts[c + 1] = starts[c] + static_cast<long>(neighbors[c].size()) * width * width;
+    for (const int r : neighbors[c]) {
+      places[c].push_back(strides[c]);
+      strides[c] += width(r);
+    }
+    offsets[c + 1] = offsets[c] + width(c);
+    starts[c + 1] = starts[c] + strides[c] * width(c);
   }
 
-  outerStarts_.resize(static_cast<Eigen::Index>(count) * width + 1);
+  outerStarts_.resize(offsets[count] + 1);
   innerIndices_.resize(starts[count]);
   for (int c = 0; c < count; ++c) {
-    for (int column = 0; column < width; ++column) {
-      long at = starts[c] + static_cast<long>(column) * width * static_cast<long>(neighbors[c].size());
-      outerStarts_[static_cast<Eigen::Index>(c) * width + column] = static_cast<int>(at);
+    for (int column = 0; column < width(c); ++column) {
+      long at = starts[c] + column * strides[c];
+      outerStarts_[offsets[c] + column] = static_cast<int>(at);
       for (const int r : neighbors[c])
-        for (int row = 0; row < width; ++row) innerIndices_[at++] = r * width + row;
+        for (int row = 0; row < width(r); ++row) innerIndices_[at++] = offsets[r] + row;
     }
   }
-  outerStarts_[static_cast<Eigen::Index>(count) * width] = static_cast<int>(starts[count]);
+  outerStarts_[offsets[count]] = static_cast<int>(starts[count]);
 
   const auto position = [&](int row, int column) {
     const auto& list = neighbors[column];
-    const long index = std::lower_bound(list.begin(), list.end(), row) - list.begin();
-    return starts[column] + index * width;
+    return starts[column] + places[column][std::lower_bound(list.begin(), list.end(), row) - list.begin()];
   };
-  const auto stride = [&](int column) { return static_cast<long>(neighbors[column].size()) * width; };
   columnBlocks_.assign(count + 1, 0);
   columnEntries_.assign(count + 1, 0);
   for (const Pair& pair : pairs) {
-    blocks_.push_back({pair.entry, pair.mass, position(pair.row, pair.column), stride(pair.column),
-                       position(pair.column, pair.row), stride(pair.row), pair.row == pair.column});
+    blocks_.push_back({pair.entry, pair.mass, position(pair.row, pair.column), strides[pair.column],
+                       position(pair.column, pair.row), strides[pair.row], width(pair.row), width(pair.column),
+                       pair.row == pair.column});
     ++columnBlocks_[pair.column + 1];
     if (pair.entry >= 0) ++columnEntries_[pair.column + 1];
   }
@@ -136,17 +143,16 @@ void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double ma
       weight[i] = stiffnessDamping * omega * harmonic;
     }
     for (int b = columnBlocks_[begin]; b < columnBlocks_[end]; ++b)
-      writeBlock(blocks_[b], coefficients, omega, massDamping, scratch.data(), values);
+      writeBlocks(blocks_[b], coefficients, omega, massDamping, scratch.data(), values);
   });
 }
 
-void HarmonicJacobian::writeBlock(const Block& block, const Matrix& coefficients, double omega, double massDamping,
-                                  double* scratch, double* values) const {
+void HarmonicJacobian::writeBlocks(const Block& block, const Matrix& coefficients, double omega, double massDamping,
+                                   double* scratch, double* values) const {
   // The rows of a block are the pairs (sin jτ, cos jτ), j = 1 .. H, below the constant. With U[m] = (P[m], -Q[m]) and
   // V[m] = (Q[m], P[m]) side by side, the pairs of the column sin kτ are U[j-k] - U[j+k] and d times them V[j-k] -
   // V[j+k]; those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m.
   const int h = harmonics_;
-  const int width = 2 * h + 1;
   double* u = scratch + 4 * h;                       // u[2m], u[2m+1] = U[m] for |m| <= 2H
   double* v = u + 2 * (4 * h + 1);                   // likewise V
   const double* weight = scratch + 4 * (4 * h + 1);  // weight[2j], weight[2j+1] = D_β ω j
@@ -169,34 +175,40 @@ void HarmonicJacobian::writeBlock(const Block& block, const Matrix& coefficients
     std::fill_n(scratch, 4 * (4 * h + 1), 0.0);
   }
 
-  double* target = values + block.lower;
-  target[0] = u[0];
-  for (int i = 2; i < 2 * h + 2; ++i) target[i - 1] = 2 * (v[i] - weight[i] * u[i]);
-  for (int k = 1; k <= h; ++k) {
-    const double* um = u - 2 * k;
-    const double* up = u + 2 * k;
-    const double* vm = v - 2 * k;
-    const double* vp = v + 2 * k;
-    double* sine = target + (2 * k - 1) * block.lowerStride;
-    double* cosine = target + 2 * k * block.lowerStride;
-    sine[0] = v[2 * k];
-    cosine[0] = v[2 * k + 1];
-    for (int i = 2; i < 2 * h + 2; ++i) {
-      sine[i - 1] = (um[i] - up[i]) + weight[i] * (vm[i] - vp[i]);
-      cosine[i - 1] = (vm[i] + vp[i]) - weight[i] * (um[i] + up[i]);
+  const auto write = [&](double* target, long stride, int rows, int columns) {
+    target[0] = u[0];
+    for (int i = 2; i <= rows; ++i) target[i - 1] = 2 * (v[i] - weight[i] * u[i]);
+    for (int k = 1; 2 * k < columns; ++k) {
+      const double* um = u - 2 * k;
+      const double* up = u + 2 * k;
+      const double* vm = v - 2 * k;
+      const double* vp = v + 2 * k;
+      double* sine = target + (2 * k - 1) * stride;
+      double* cosine = target + 2 * k * stride;
+      sine[0] = v[2 * k];
+      cosine[0] = v[2 * k + 1];
+      for (int i = 2; i <= rows; ++i) {
+        sine[i - 1] = (um[i] - up[i]) + weight[i] * (vm[i] - vp[i]);
+        cosine[i - 1] = (vm[i] + vp[i]) - weight[i] * (um[i] + up[i]);
+      }
+      if (2 * k >= rows) continue;
+      const double inertia = -(k * omega) * (k * omega) * block.mass;
+      const double friction = k * omega * massDamping * block.mass;
+      sine[2 * k - 1] += inertia;
+      sine[2 * k] += friction;
+      cosine[2 * k - 1] -= friction;
+      cosine[2 * k] += inertia;
     }
-    const double inertia = -(k * omega) * (k * omega) * block.mass;
-    const double friction = k * omega * massDamping * block.mass;
-    sine[2 * k - 1] += inertia;
-    sine[2 * k] += friction;
-    cosine[2 * k - 1] -= friction;
-    cosine[2 * k] += inertia;
+  };
+  write(values + block.lower, block.lowerStride, block.rowWidth, block.columnWidth);
+  if (block.diagonal) return;
+  if (block.rowWidth != block.columnWidth) {
+    write(values + block.upper, block.upperStride, block.columnWidth, block.rowWidth);
+    return;
   }
-  if (!block.diagonal) {
-    for (int column = 0; column < width; ++column)
-      std::copy_n(
-          values + block.lower + column * block.lowerStride, width, values + block.upper + column * block.upperStride);
-  }
+  for (int column = 0; column < block.columnWidth; ++column)
+    std::copy_n(values + block.lower + column * block.lowerStride, block.rowWidth,
+                values + block.upper + column * block.upperStride);
 }
 
 }  // namespace pliant::harmonic

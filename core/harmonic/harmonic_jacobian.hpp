@@ -19,13 +19,15 @@ using mechanics::Vector;
 /// with P[m] and Q[m] the means of k(τ_i) cos(m τ_i) and k(τ_i) sin(m τ_i) over the samples. This is an identity for
 /// any number of samples, so the blocks cost one matrix product for all coefficients and a few additions an entry.
 /// Damping multiplies a block by (1 + D_β ω d) from the left; inertia and mass damping add to its diagonal pairs.
+/// Coordinates may have fewer harmonics than the basis: the rows and columns of those left out do not exist.
 ///
 /// Constant once built; any thread may use it.
 class HarmonicJacobian {
  public:
-  /// `mass`: M of the free coordinates, nFree square [kg].
+  /// `mass`: M of the free coordinates, nFree square [kg]. `coordinateHarmonics`: of each free coordinate, at most the
+  /// basis's.
   HarmonicJacobian(const math::HarmonicBasis& basis, const mechanics::ElasticAssembler& assembler,
-                   const SparseMatrix& mass);
+                   const SparseMatrix& mass, const std::vector<int>& coordinateHarmonics);
 
   Eigen::Index size() const { return outerStarts_.size() - 1; }
   Eigen::Index entryCount() const { return outerStarts_[size()]; }
@@ -44,11 +46,13 @@ class HarmonicJacobian {
     long lowerStride;
     long upper;
     long upperStride;
+    int rowWidth;     ///< 2H+1 of the row's coordinate
+    int columnWidth;  ///< likewise
     bool diagonal;
   };
 
-  void writeBlock(const Block& block, const Matrix& coefficients, double omega, double massDamping, double* scratch,
-                  double* values) const;
+  void writeBlocks(const Block& block, const Matrix& coefficients, double omega, double massDamping, double* scratch,
+                   double* values) const;
 
   int harmonics_;
   Matrix transform_;  ///< (4H+1) x N: samples to P[0], Q[1], P[1], ..., Q[2H], P[2H]

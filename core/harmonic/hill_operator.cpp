@@ -34,7 +34,7 @@ Vector HillOperator::apply(const Vector& uv) const {
           .reshaped();
   if (model.stiffnessDamping != 0) right += model.stiffnessDamping * omega_ * stiffnessTimes(uv.head(n), massU);
   Vector result(2 * n);
-  result << -solver_.solveRoughly(right), uv.head(n);
+  result << -solver_.solveRoughly(right), problem_.withoutLeftOut(uv.head(n));
   return result;
 }
 

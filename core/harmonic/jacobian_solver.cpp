@@ -20,14 +20,14 @@ bool JacobianSolver::factorize() {
 
 Matrix JacobianSolver::solve(const Matrix& b) const {
   const base::Stopwatch watch;
-  Matrix x = factorization_->solve(b);
+  Matrix x = problem_.expanded(factorization_->solve(problem_.restricted(b)));
   countSolves(b.cols(), watch.seconds());
   return x;
 }
 
 Matrix JacobianSolver::solveRoughly(const Matrix& b) const {
   const base::Stopwatch watch;
-  Matrix x = factorization_->solveRoughly(b);
+  Matrix x = problem_.expanded(factorization_->solveRoughly(problem_.restricted(b)));
   countSolves(b.cols(), watch.seconds());
   return x;
 }

@@ -6,8 +6,8 @@
 
 namespace pliant::harmonic {
 
-/// ∂h/∂z of a problem and its factors, kept together so that pattern and symbolic analysis are made once. Counts what
-/// it does in `HarmonicBalanceProblem::cost`.
+/// ∂h/∂z of a problem and its factors, kept together so that pattern and symbolic analysis are made once. All vectors
+/// have the problem's size(), with zeros for what is left out. Counts what it does in `HarmonicBalanceProblem::cost`.
 class JacobianSolver {
  public:
   explicit JacobianSolver(const HarmonicBalanceProblem& problem) : problem_(problem) {}
@@ -22,8 +22,9 @@ class JacobianSolver {
   /// The same to about half the digits, for half the price.
   Matrix solveRoughly(const Matrix& b) const;
   /// ∂h/∂z, last linearised, times v.
-  Vector multiply(const Vector& v) const { return jacobian_ * v; }
+  Vector multiply(const Vector& v) const { return problem_.expanded(jacobian_ * problem_.restricted(v)); }
 
+  /// Of the problem's unknowns, like its factors.
   const SparseMatrix& jacobian() const { return jacobian_; }
   /// The factors; a later factorize() makes new ones if somebody still holds them.
   std::shared_ptr<const math::SparseFactorization> factorization() const { return factorization_; }

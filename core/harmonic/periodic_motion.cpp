@@ -94,7 +94,7 @@ class MotionSearch {
     const base::Stopwatch watch;
     motion_.omega = omega_;
     bool done = false;
-    if (start.size() > 0) done = newtonFrom(start, {});
+    if (start.size() > 0) done = newtonFrom(problem_.withoutLeftOut(start), {});
     if (!done && findSteadyState())
       done = newtonFrom(linearResponse(), steady_) || (options_.startScale == 1 && (rampDrive() || followFrequency()));
     motion_.factorization = solver_.factorization();

@@ -41,7 +41,12 @@ ResponseSensitivity::ResponseSensitivity(const HarmonicBalanceProblem& problem, 
   JacobianSolver solver(problem);
   Vector h;
   solver.linearize(z_, motion.omega, h, nullptr);
-  if (motion.factorization && refine(solver.jacobian(), *motion.factorization, rightSide, derivative_)) return;
+  Matrix unknowns;
+  if (motion.factorization &&
+      refine(solver.jacobian(), *motion.factorization, problem.restricted(rightSide), unknowns)) {
+    derivative_ = problem.expanded(unknowns);
+    return;
+  }
   regular_ = solver.factorize();
   derivative_ = regular_ ? solver.solve(rightSide) : Matrix::Zero(rightSide.rows(), rightSide.cols());
 }

@@ -175,7 +175,11 @@ Json HarmonicResult::summary() const {
   addConstraintViolation(*this, json);
   json["harmonics"] = problem->basis().harmonics();
   json["samples"] = problem->basis().samples();
-  json["unknowns"] = problem->size();
+  json["unknowns"] = problem->unknownCount();
+  if (leftOut) {
+    json["left_out"] = *leftOut;
+    json["coordinate_harmonics"] = problem->coordinateHarmonics();
+  }
   json["nodes"] = model.nodeCount();
   json["free_coordinates"] = model.dofs.freeCount();
   json["parameters"] = parameterValues(model);
@@ -187,6 +191,7 @@ Json HarmonicResult::summary() const {
                    {"path_length_derivative", "m per unit of the parameter"},
                    {"residual", "relative to the driving force"},
                    {"correction", "relative to the swing"},
+                   {"left_out", "relative to the longest path"},
                    {"largest_constraint_violation", "relative to the length of the link or bar"},
                    {"seconds", "s"}};
   addRunInformation(json, *this);

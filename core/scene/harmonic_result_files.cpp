@@ -230,6 +230,7 @@ void readSummary(HarmonicResult& result, const Json& summary) {
   const Json& provenance = summary.at("provenance");
   result.provenance = {provenance.at("version"), provenance.at("scene"), provenance.at("scene_hash"),
                        summary.at("study"), provenance.at("options")};
+  if (summary.contains("left_out")) result.leftOut = summary.at("left_out").get<double>();
   result.report.termination = result.termination;
   result.report.message = result.message;
   result.report.seconds = result.seconds;
@@ -267,7 +268,8 @@ std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const s
             "", "This result has no periodic motions: it is of the kind " + summary.at("kind").dump() + ".");
       const math::HarmonicBasis basis(summary.at("harmonics"), summary.at("samples"));
       readSummary(*result, summary);
-      harmonic::HarmonicBalanceProblem problem(modelOf(scene, summary), basis);
+      harmonic::HarmonicBalanceProblem problem(
+          modelOf(scene, summary), basis, 1, summary.value("coordinate_harmonics", std::vector<int>{}));
       result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(
           result->isBackbone ? harmonic::freeProblem(problem) : std::move(problem));
     } catch (const Json::exception&) {

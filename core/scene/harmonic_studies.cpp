@@ -1,8 +1,11 @@
 #include "core/scene/harmonic_studies.hpp"
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/backbone.hpp"
+#include "core/harmonic/node_harmonics.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
 
@@ -78,15 +81,8 @@ class PeriodicMotionStudy final : public HarmonicStudy {
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
     const double omega = options_["frequency"];
-    auto [problem, motion] = [&] {
-      harmonic::HarmonicBalanceProblem first = makeProblem();
-      if (options_.contains("harmonics_tolerance"))
-        return harmonic::solveWithAdaptiveHarmonics(std::move(first), omega, options_["harmonics_tolerance"],
-                                                    options_["maximum_harmonics"], newtonOptions(), context);
-      harmonic::PeriodicMotion solved = harmonic::solvePeriodicMotion(first, omega, newtonOptions(), context);
-      return std::pair(std::move(first), std::move(solved));
-    }();
     auto result = makeResult();
+    auto [problem, motion] = solve(omega, *result, context);
     result->problem = std::make_shared<const harmonic::HarmonicBalanceProblem>(std::move(problem));
     if (motion.z.size() == result->problem->size() && motion.z.allFinite()) {
       harmonic::ResponsePoint point;
@@ -105,6 +101,25 @@ class PeriodicMotionStudy final : public HarmonicStudy {
     finish(*result, std::move(motion.report), watch);
     if (observe) observe(result);
     return result;
+  }
+
+ private:
+  std::pair<harmonic::HarmonicBalanceProblem, harmonic::PeriodicMotion> solve(double omega, HarmonicResult& result,
+                                                                              base::ExecutionContext& context) const {
+    harmonic::HarmonicBalanceProblem problem = makeProblem();
+    if (!options_.contains("harmonics_tolerance")) {
+      harmonic::PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, newtonOptions(), context);
+      return {std::move(problem), std::move(motion)};
+    }
+    const double tolerance = options_["harmonics_tolerance"];
+    const int most = options_["maximum_harmonics"];
+    if (options_["harmonics_of"] == "model")
+      return harmonic::solveWithAdaptiveHarmonics(
+          std::move(problem), omega, tolerance, most, newtonOptions(), context);
+    harmonic::NodeHarmonicsMotion found =
+        harmonic::solveWithHarmonicsPerNode(std::move(problem), omega, tolerance, most, newtonOptions(), context);
+    if (std::isfinite(found.leftOut)) result.leftOut = found.leftOut;
+    return {std::move(found.problem), std::move(found.motion)};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,8 @@ class HarmonicResult final : public Result {
   ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
+  /// Of a motion with harmonics per node: see NodeHarmonicsMotion.
+  std::optional<double> leftOut;
   bool isCurve = false;     ///< true for a frequency_response, a linear_response or a backbone
   bool isLinear = false;    ///< the points solve the linearised model, not h(z, ω) = 0
   bool isBackbone = false;  ///< free motions: `problem` has no drive

@@ -226,6 +226,28 @@ class TestStudies : public QObject {
     QCOMPARE(result->summary()["harmonics"].get<int>(), result->problem->basis().harmonics());
   }
 
+  void harmonicsPerNodeAreKeptWithTheResult() {
+    const QTemporaryDir folder;
+    const fs::path directory = fs::path(folder.path().toStdString()) / "result";
+    const Scene scene = test::parse(test::fullScene)
+                            .withValue("/studies/0/harmonics", 1)
+                            .withValue("/studies/0/harmonics_tolerance", 1e-4)
+                            .withValue("/studies/0/harmonics_of", "node");
+    const auto result = run(scene, "motion");
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    QVERIFY(result->leftOut && *result->leftOut <= 1e-4);
+    QVERIFY(result->problem->basis().harmonics() > 1);
+    QVERIFY(result->problem->unknownCount() < result->problem->size());
+    QCOMPARE(result->summary()["unknowns"].get<Eigen::Index>(), result->problem->unknownCount());
+    result->write(directory);
+    const auto read = HarmonicResult::read(scene, directory);
+    QCOMPARE(read->problem->coordinateHarmonics(), result->problem->coordinateHarmonics());
+    QCOMPARE(read->points.front().z, result->points.front().z);
+    QCOMPARE(*read->leftOut, *result->leftOut);
+    QVERIFY((read->sensitivity->derivative() - result->sensitivity->derivative()).norm() <
+            1e-9 * result->sensitivity->derivative().norm());
+  }
+
   void tooManyUnknownsAreRefused() {
     const Scene scene = test::parse(test::fullScene)
                             .withValue("/geometry/0/length_cells", 100)
