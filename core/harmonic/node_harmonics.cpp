@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/harmonic/amplitude.hpp"
+#include "core/harmonic/jacobian_solver.hpp"
 
 namespace pliant::harmonic {
 
@@ -13,6 +14,7 @@ namespace {
 using base::TerminationType;
 
 constexpr int harmonicsLookedAhead = 2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 HarmonicBalanceProblem problemLike(const HarmonicBalanceProblem& problem, int harmonics,
                                    std::vector<int> coordinateHarmonics = {}) {
@@ -44,8 +46,8 @@ Vector estimateLeftOut(const HarmonicBalanceProblem& coarse, const HarmonicBalan
   finer.linearize(z, omega, h, &jacobian, nullptr);
   Vector missing = Vector::Zero(z.size());
   for (int k = 1; k <= finer.basis().harmonics(); ++k) {
-    std::vector<int> lacking;                        // coordinates without this harmonic
-    std::vector<int> place(harmonics.size(), -1);    // of a coordinate among them
+    std::vector<int> lacking;                      // coordinates without this harmonic
+    std::vector<int> place(harmonics.size(), -1);  // of a coordinate among them
     for (std::size_t f = 0; f < harmonics.size(); ++f) {
       if (harmonics[f] >= k) continue;
       place[f] = static_cast<int>(lacking.size());
@@ -77,34 +79,51 @@ Vector estimateLeftOut(const HarmonicBalanceProblem& coarse, const HarmonicBalan
   return missing;
 }
 
-/// How far each harmonic that is left out would move each node or scalar coordinate: group x harmonic, in metres.
-class LeftOut {
+/// What the coefficients that `coarse` has would change by if `missing` (of `finer`, like z) were there as well: near a
+/// resonance more than `missing` itself. size() of `finer`.
+Vector estimateReaction(const HarmonicBalanceProblem& coarse, const HarmonicBalanceProblem& finer, const Vector& z,
+                        const Vector& missing, const PeriodicMotion& motion) {
+  const int few = coarse.basis().harmonics(), many = finer.basis().harmonics();
+  const Vector force = HarmonicBalanceProblem::changeHarmonics(finer.residual(z + missing, motion.omega), many, few);
+  std::shared_ptr<const math::SparseFactorization> factors = motion.factorization;
+  if (!factors) {
+    JacobianSolver solver(coarse);
+    Vector h;
+    solver.linearize(motion.z, motion.omega, h, nullptr);
+    if (solver.factorize()) factors = solver.factorization();
+  }
+  if (!factors) return Vector::Constant(z.size(), std::numeric_limits<double>::quiet_NaN());
+  const Vector reaction = -coarse.expanded(factors->solve(coarse.restricted(force)));
+  return HarmonicBalanceProblem::changeHarmonics(reaction, few, many);
+}
+
+/// Lengths of coefficients, added up by nodes and scalar coordinates (the groups).
+class GroupLengths {
  public:
-  LeftOut(const Model& model, int harmonics, const Vector& missing) : model_(model) {
-    const int width = 2 * harmonics + 1;
-    Matrix squares = Matrix::Zero(groupOf(model.coordinateCount() - 1) + 1, harmonics);
-    for (int f = 0; f < model.dofs.freeCount(); ++f)
-      for (int k = 1; k <= harmonics; ++k)
-        squares(groupOf(model.dofs.freeCoordinates[f]), k - 1) +=
-            missing.segment<2>(static_cast<Eigen::Index>(f) * width + 2 * k - 1).squaredNorm();
-    lengths_ = squares.cwiseSqrt();
+  GroupLengths(const Model& model, int harmonics) : model_(model), harmonics_(harmonics) {}
+
+  /// Group x (harmonics + 1) [m]: how far each harmonic moves it, the constant first.
+  Matrix operator()(const Vector& coefficients) const {
+    const Eigen::Index width = 2 * harmonics_ + 1;
+    Matrix squares = Matrix::Zero(groupOf(model_.coordinateCount() - 1) + 1, harmonics_ + 1);
+    for (int f = 0; f < model_.dofs.freeCount(); ++f) {
+      const Eigen::Index group = groupOf(model_.dofs.freeCoordinates[f]);
+      squares(group, 0) += coefficients[f * width] * coefficients[f * width];
+      for (int k = 1; k <= harmonics_; ++k)
+        squares(group, k) += coefficients.segment<2>(f * width + 2 * k - 1).squaredNorm();
+    }
+    return squares.cwiseSqrt();
   }
 
-  /// All harmonics together. NaN counts as infinite.
-  double largest() const {
-    const Vector sums = lengths_.rowwise().sum();
-    return sums.allFinite() ? sums.maxCoeff() : std::numeric_limits<double>::infinity();
-  }
-
-  /// The harmonics with which no node lacks more than `tolerance`, at most `most`, at least those in `present`.
-  std::vector<int> harmonicsFor(double tolerance, int most, const std::vector<int>& present) const {
+  /// The harmonics with which no group lacks more than `tolerance` of `missing`, at most `most`, at least `present`.
+  std::vector<int> harmonicsFor(const Matrix& missing, double tolerance, int most,
+                                const std::vector<int>& present) const {
     std::vector<int> wanted = present;
     for (std::size_t f = 0; f < wanted.size(); ++f) {
       const Eigen::Index group = groupOf(model_.dofs.freeCoordinates[f]);
       double beyond = 0;
-      int harmonics = static_cast<int>(lengths_.cols());
-      while (harmonics > 0 && beyond + lengths_(group, harmonics - 1) <= tolerance)
-        beyond += lengths_(group, --harmonics);
+      int harmonics = harmonics_;
+      while (harmonics > 0 && beyond + missing(group, harmonics) <= tolerance) beyond += missing(group, harmonics--);
       wanted[f] = std::max(wanted[f], std::min(harmonics, most));
     }
     return wanted;
@@ -117,7 +136,7 @@ class LeftOut {
   }
 
   const Model& model_;
-  Matrix lengths_;
+  int harmonics_;
 };
 
 }  // namespace
@@ -133,22 +152,30 @@ NodeHarmonicsMotion solveWithHarmonicsPerNode(HarmonicBalanceProblem problem, do
     const HarmonicBalanceProblem finer = problemLike(problem, more);
     const Vector padded = HarmonicBalanceProblem::changeHarmonics(motion.z, harmonics, more);
     const Vector missing = estimateLeftOut(problem, finer, padded, omega);
-    const LeftOut lengths(problem.model(), more, missing);
+    const Vector change = missing + estimateReaction(problem, finer, padded, missing, motion);
+    const GroupLengths lengthsOf(problem.model(), more);
     const double length = longestPath(problem, motion.z);
-    leftOut = length > 0 ? lengths.largest() / length : 0;
+    if (length == 0)
+      leftOut = 0;
+    else
+      leftOut = change.allFinite() ? lengthsOf(change).rowwise().sum().maxCoeff() / length : infinity;
     if (leftOut <= relativeChange) break;
-    std::vector<int> wanted =
-        lengths.harmonicsFor(relativeChange * length, maximumHarmonics, problem.coordinateHarmonics());
+    // Where it is the reaction that is too large, less has to be left out than each node's own share would allow.
+    std::vector<int> wanted = problem.coordinateHarmonics();
+    const Matrix shares = lengthsOf(missing);
+    for (double share = relativeChange * length; share > 0 && wanted == problem.coordinateHarmonics(); share *= 0.3)
+      wanted = lengthsOf.harmonicsFor(shares, share, maximumHarmonics, problem.coordinateHarmonics());
     if (wanted == problem.coordinateHarmonics()) {
       motion.report.termination = TerminationType::iterationLimit;
-      motion.report.message = std::to_string(maximumHarmonics) +
-                              " harmonics, the most allowed, are not enough: those left out would move a node by about " +
-                              std::to_string(leftOut) + " of the longest path.";
+      motion.report.message =
+          std::to_string(maximumHarmonics) +
+          " harmonics, the most allowed, are not enough: those left out would move a node by about " +
+          std::to_string(leftOut) + " of the longest path.";
       break;
     }
     const int most = *std::max_element(wanted.begin(), wanted.end());
     const Vector start =
-        HarmonicBalanceProblem::changeHarmonics(missing.allFinite() ? Vector(padded + missing) : padded, more, most);
+        HarmonicBalanceProblem::changeHarmonics(change.allFinite() ? Vector(padded + change) : padded, more, most);
     problem = problemLike(problem, most, std::move(wanted));
     motion = solvePeriodicMotion(problem, omega, options, context, start);
   }
