@@ -102,6 +102,12 @@ function(pliant_add_test file)
   endif()
   target_link_libraries(${target} PRIVATE ${dependencies} ${ARG_LIBRARIES} Qt6::Test pliant_options pliant_warnings)
   add_test(NAME ${name} COMMAND ${target})
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" ENVIRONMENT
-    "QT_QPA_PLATFORM=offscreen;GALLIUM_DRIVER=llvmpipe;OPENBLAS_NUM_THREADS=1;LC_ALL=C.UTF-8;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks_of_libraries.txt")
+  set(environment
+      QT_QPA_PLATFORM=offscreen
+      GALLIUM_DRIVER=llvmpipe
+      OPENBLAS_NUM_THREADS=1
+      LC_ALL=C.UTF-8
+      LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks_of_libraries.txt
+      TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/races_of_libraries.txt)
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" ENVIRONMENT "${environment}")
 endfunction()

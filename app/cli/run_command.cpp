@@ -81,6 +81,13 @@ void printHarmonic(const Json& summary) {
             << base::formatQuantity(summary["correction"].get<double>(), {}) << " of the swing\n";
   std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
             << " unknowns\n";
+  if (summary.contains("left_out")) {
+    const auto harmonics = summary["coordinate_harmonics"].get<std::vector<int>>();
+    const auto [fewest, most] = std::minmax_element(harmonics.begin(), harmonics.end());
+    std::cout << "  harmonics per node: " << *fewest << " to " << *most
+              << "; those left out would move a node by about "
+              << base::formatQuantity(summary["left_out"].get<double>(), {}) << " of the longest path\n";
+  }
   if (summary.contains("iterations")) printIterations(summary["iterations"]);
   if (summary.contains("probes")) {
     std::cout << "  at " << frequency(summary) << "\n";

@@ -211,10 +211,8 @@ HarmonicBalanceProblem HarmonicBalanceProblem::withDrivePeriods(int drivePeriods
   const auto scaled = [&](int count) { return count * drivePeriods / structure_->drivePeriods; };
   std::vector<int> harmonics;
   for (const int count : structure_->coordinateHarmonics) harmonics.push_back(scaled(count));
-  return {structure_->model,
-          {scaled(basis().harmonics()), scaled(basis().samples())},
-          drivePeriods,
-          std::move(harmonics)};
+  return {
+      structure_->model, {scaled(basis().harmonics()), scaled(basis().samples())}, drivePeriods, std::move(harmonics)};
 }
 
 Matrix HarmonicBalanceProblem::restricted(const Matrix& x) const {
@@ -336,9 +334,9 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, V
                       stiffnessDamping * omega * elasticRate - scaledLoads(s.loadCoefficients, driveFraction_))
                          .reshaped());
   if (frequencyDerivative)
-    *frequencyDerivative = withoutLeftOut(
-        (2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped() /
-        s.drivePeriods);
+    *frequencyDerivative =
+        withoutLeftOut((2 * omega * acceleration + massDamping * velocity + stiffnessDamping * elasticRate).reshaped() /
+                       s.drivePeriods);
   if (jacobian) s.jacobian.assemble(w.hessian, omega, massDamping, stiffnessDamping, w.hessianCoefficients, *jacobian);
 }
 

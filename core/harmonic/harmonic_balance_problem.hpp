@@ -112,8 +112,9 @@ class HarmonicBalanceProblem {
 
   /// h(z, ω), size().
   Vector residual(const Vector& z, double omega) const;
-  /// h, ∂h/∂z (unknownCount() square, pattern constant) and ∂h/∂ω at once; null outputs are not computed. ∂h/∂z is exact unless `stresses` are
-  /// given: with those of a better motion it makes a better step from a prediction or a Newton iterate than its own.
+  /// h, ∂h/∂z (unknownCount() square, pattern constant) and ∂h/∂ω at once; null outputs are not computed. ∂h/∂z is
+  /// exact unless `stresses` are given: with those of a better motion it makes a better step from a prediction or a
+  /// Newton iterate than its own.
   void linearize(const Vector& z, double omega, Vector& h, SparseMatrix* jacobian, Vector* frequencyDerivative,
                  const StressSource* stresses = nullptr) const;
   /// ∂h/∂p, size(): with all of the drive, and with the coordinates that are not free moving as p moves them.

@@ -72,10 +72,10 @@ HarmonicJacobian::HarmonicJacobian(const math::HarmonicBasis& basis, const mecha
     neighbors[pair.column].push_back(pair.row);
     if (pair.row != pair.column) neighbors[pair.row].push_back(pair.column);
   }
-  std::vector<int> offsets(count + 1, 0);         // first unknown of each coordinate
-  std::vector<long> starts(count + 1, 0);         // first entry
-  std::vector<long> strides(count, 0);            // entries a column
-  std::vector<std::vector<long>> places(count);   // of each neighbour's rows in a column
+  std::vector<int> offsets(count + 1, 0);        // first unknown of each coordinate
+  std::vector<long> starts(count + 1, 0);        // first entry
+  std::vector<long> strides(count, 0);           // entries a column
+  std::vector<std::vector<long>> places(count);  // of each neighbour's rows in a column
   for (int c = 0; c < count; ++c) {
     std::sort(neighbors[c].begin(), neighbors[c].end());
     for (const int r : neighbors[c]) {

@@ -114,8 +114,7 @@ class PeriodicMotionStudy final : public HarmonicStudy {
     const double tolerance = options_["harmonics_tolerance"];
     const int most = options_["maximum_harmonics"];
     if (options_["harmonics_of"] == "model")
-      return harmonic::solveWithAdaptiveHarmonics(
-          std::move(problem), omega, tolerance, most, newtonOptions(), context);
+      return harmonic::solveWithAdaptiveHarmonics(std::move(problem), omega, tolerance, most, newtonOptions(), context);
     harmonic::NodeHarmonicsMotion found =
         harmonic::solveWithHarmonicsPerNode(std::move(problem), omega, tolerance, most, newtonOptions(), context);
     if (std::isfinite(found.leftOut)) result.leftOut = found.leftOut;

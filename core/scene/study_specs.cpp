@@ -89,18 +89,19 @@ const std::vector<ParameterSpec>& studySpecs() {
           "periodic_motion",
           "The periodic motion at one driving frequency, and how it depends on each design parameter.",
           {frequency("frequency", "ω", "Driving frequency.")},
-          drivenKeys({optional(positive(
-                          number("harmonics_tolerance", "",
-                                 "Raise the harmonics until no probe's trajectory changes by more than this fraction "
-                                 "of its length.",
-                                 dimensions::none))),
-                      withDefault(choice("harmonics_of",
-                                         "With \"harmonics_tolerance\": \"model\" raises the harmonics of all nodes alike; "
-                                         "\"node\" those of each node, until what is left out would move it by no more "
-                                         "than that fraction of the longest path.",
-                                         {"model", "node"}),
-                                  "model"),
-                      withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
+          drivenKeys(
+              {optional(
+                   positive(number("harmonics_tolerance", "",
+                                   "Raise the harmonics until no probe's trajectory changes by more than this fraction "
+                                   "of its length.",
+                                   dimensions::none))),
+               withDefault(choice("harmonics_of",
+                                  "With \"harmonics_tolerance\": \"model\" raises the harmonics of all nodes alike; "
+                                  "\"node\" those of each node, until what is left out would move it by no more "
+                                  "than that fraction of the longest path.",
+                                  {"model", "node"}),
+                           "model"),
+               withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
       harmonicStudy(
           "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
           {from(), to()},

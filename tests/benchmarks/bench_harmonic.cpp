@@ -1,5 +1,5 @@
-/// `pliant-bench harmonic [--json FILE]`: every study of every scene in scenes/harmonic, timed, with the part of the
-/// time that its evaluations, factorisations and solves took.
+/// `pliant-bench harmonic [--json FILE]`: every motion and curve of every scene in scenes/harmonic, timed, with the
+/// part of the time that its evaluations, factorisations and solves took.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -74,7 +74,8 @@ Json measure() {
   for (const auto& file : files) {
     const scene::Scene scene = scene::Scene::load(file);
     for (const Json& study : scene.normalized()["studies"])
-      if (study["type"] == "periodic_motion" || study["type"] == "frequency_response")
+      if (!study.contains("harmonics_tolerance") &&
+          (study["type"] == "periodic_motion" || study["type"] == "frequency_response"))
         rows.push_back(rowOf(scene, file.stem().string(), study));
   }
   bench::measureNewtonIterations(rows);

@@ -113,9 +113,8 @@ void TestHarmonicBalanceProblem::derivatives() {
     const double value = parameter->value(*model);
     const double change = 0.1 * value;  // h is linear in a mass
     const auto changed = [&](double by) {
-      return HarmonicBalanceProblem(
-                 std::make_shared<Model>(parameter->withValue(*model, value + by)), {harmonics, samples}, 1,
-                 coordinateHarmonics)
+      return HarmonicBalanceProblem(std::make_shared<Model>(parameter->withValue(*model, value + by)),
+                                    {harmonics, samples}, 1, coordinateHarmonics)
           .residual(z, omega);
     };
     const Vector difference = (changed(change) - changed(-change)) / (2 * change);

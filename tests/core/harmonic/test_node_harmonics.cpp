@@ -51,8 +51,7 @@ NodeHarmonicsMotion solvePerNode(double relativeChange, int most) {
 std::pair<HarmonicBalanceProblem, Vector> finest(const NodeHarmonicsMotion& found) {
   base::ExecutionContext context;
   HarmonicBalanceProblem problem(chain(), {31, 256});
-  const Vector start =
-      HarmonicBalanceProblem::changeHarmonics(found.motion.z, found.problem.basis().harmonics(), 31);
+  const Vector start = HarmonicBalanceProblem::changeHarmonics(found.motion.z, found.problem.basis().harmonics(), 31);
   PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, omega, {}, context, start);
   return {problem, motion.z};
 }
