@@ -170,17 +170,11 @@ Vector pathLengthGradient(const HarmonicBalanceProblem& problem, const Vector& z
 
 double largestStrain(const HarmonicBalanceProblem& problem, const Vector& z) {
   const Model& model = problem.model();
-  mechanics::Triangles triangles;
-  for (const mechanics::DisplayPart& part : model.parts)
-    triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
-  if (triangles.empty()) return 0;
+  if (!mechanics::largestStrain(model, model.restPositions)) return 0;
   double largest = 0;
   const Matrix positions = problem.trajectories(z);
   for (Eigen::Index i = 0; i < positions.rows(); ++i)
-    largest = std::max(largest, mechanics::principalStretches(
-                                    model.dimension, model.restPositions, positions.row(i).transpose(), triangles)
-                                        .maxCoeff() -
-                                    1);
+    largest = std::max(largest, mechanics::largestStrain(model, positions.row(i)).value_or(0));
   return largest;
 }
 

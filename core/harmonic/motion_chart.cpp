@@ -109,18 +109,14 @@ ChartSeries sampled(const HarmonicBalanceProblem& problem, const Vector& z, doub
 MotionChart strain(const HarmonicBalanceProblem& problem, const Vector& z, double omega, int) {
   const Model& model = problem.model();
   MotionChart chart;
-  mechanics::Triangles triangles;
-  for (const mechanics::DisplayPart& part : model.parts)
-    triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
-  if (triangles.empty() || model.dimension == 1) {
-    chart.note = "The model has no triangles whose strain could be shown.";
+  if (!mechanics::largestStrain(model, model.restPositions)) {
+    chart.note = "The model has no triangles or tetrahedra whose strain could be shown.";
     return chart;
   }
   chart.x = {"Time", dimensions::time};
   chart.y = {"Largest principal stretch - 1", dimensions::none};
-  chart.series.push_back(sampled(problem, z, omega, "largest", [&](const Vector& x) {
-    return mechanics::principalStretches(model.dimension, model.restPositions, x, triangles).maxCoeff() - 1;
-  }));
+  chart.series.push_back(sampled(
+      problem, z, omega, "largest", [&](const Vector& x) { return mechanics::largestStrain(model, x).value_or(0); }));
   return chart;
 }
 
@@ -148,7 +144,8 @@ const std::vector<MotionChartKind>& motionChartKinds() {
        displacement},
       {"velocity", "Velocity over time", "The node's velocity over a period.", true, velocity},
       {"phase_plane", "Phase plane", "The node's velocity over its displacement, an axis a loop.", true, phasePlane},
-      {"strain", "Strain over time", "The largest stretch of any triangle over a period.", false, strain},
+      {"strain", "Strain over time", "The largest stretch of any triangle or tetrahedron over a period.", false,
+       strain},
       {"violation", "Rigidity over time",
        "By how much rigid links and angles give way over a period, relative to their size.", false, violation}};
   return kinds;

@@ -69,6 +69,7 @@ struct DisplayPart {
   int firstNode = 0;
   int nodeCount = 0;
   std::vector<std::array<int, 3>> triangles;            ///< global node indices
+  std::vector<std::array<int, 4>> tetrahedra;           ///< global node indices; not drawn, but they have strains
   std::vector<std::array<int, 2>> segments;             ///< links and rods, global node indices
   std::vector<std::array<AttachmentPoint, 2>> springs;  ///< from end to end
   std::vector<std::array<AttachmentPoint, 2>> arms;     ///< what is rigid between a link and a spring's end beside it

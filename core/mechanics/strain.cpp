@@ -1,5 +1,8 @@
 #include "core/mechanics/strain.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace pliant::mechanics {
@@ -17,6 +20,12 @@ std::array<double, 3> edgeMetric(int dimension, const double* x, const std::arra
     metric[2] += e1 * e2;
   }
   return metric;
+}
+
+Eigen::Matrix3d tetrahedronEdges(const Vector& x, const std::array<int, 4>& tetrahedron) {
+  Eigen::Matrix3d edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = x.segment<3>(3 * tetrahedron[k + 1]) - x.segment<3>(3 * tetrahedron[0]);
+  return edges;
 }
 
 }  // namespace
@@ -37,6 +46,32 @@ Vector principalStretches(int dimension, const Vector& restPositions, const Vect
     stretches[static_cast<Eigen::Index>(t)] = std::sqrt(squared);
   }
   return stretches;
+}
+
+Vector principalStretches(const Vector& restPositions, const Vector& positions, const Tetrahedra& tetrahedra) {
+  Vector stretches(static_cast<Eigen::Index>(tetrahedra.size()));
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const Eigen::Matrix3d gradient =
+        tetrahedronEdges(positions, tetrahedra[t]) * tetrahedronEdges(restPositions, tetrahedra[t]).inverse();
+    // In closed form, since this runs for every sample of every point of a curve.
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares;
+    squares.computeDirect(gradient.transpose() * gradient, Eigen::EigenvaluesOnly);
+    stretches[static_cast<Eigen::Index>(t)] = std::sqrt(std::max(0.0, squares.eigenvalues()[2]));
+  }
+  return stretches;
+}
+
+std::optional<double> largestStrain(const Model& model, const Vector& positions) {
+  if (model.dimension == 1) return std::nullopt;
+  std::optional<double> largest;
+  const auto include = [&](const Vector& stretches) {
+    if (stretches.size() > 0) largest = std::max(largest.value_or(-1), stretches.maxCoeff() - 1);
+  };
+  for (const DisplayPart& part : model.parts) {
+    include(principalStretches(model.dimension, model.restPositions, positions, part.triangles));
+    if (model.dimension == 3) include(principalStretches(model.restPositions, positions, part.tetrahedra));
+  }
+  return largest;
 }
 
 }  // namespace pliant::mechanics

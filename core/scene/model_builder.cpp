@@ -94,6 +94,7 @@ class Builder {
                               geometry.firstNode,
                               geometry.nodeCount(),
                               geometry.global(geometry.mesh.triangles),
+                              geometry.global(geometry.tetrahedra),
                               {},
                               {},
                               {}});

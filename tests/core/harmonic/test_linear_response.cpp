@@ -116,7 +116,7 @@ std::shared_ptr<Model> turnedFoil(double angle) {
       mechanics::makeRotation(clampedNodes(mesh, 0.026), vector3(0, 0, 0), Eigen::Vector3d::UnitY(), sine(angle))};
   const int last = static_cast<int>(mesh.points.cols()) - 1;
   model->probes = {{"tip", last}};
-  model->parts = {{"foil", 0, last + 1, mesh.triangles, {}, {}, {}}};
+  model->parts = {{"foil", 0, last + 1, mesh.triangles, {}, {}, {}, {}}};
   model->finish();
   return model;
 }

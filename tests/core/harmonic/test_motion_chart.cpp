@@ -1,5 +1,6 @@
 #include <QtTest>
 
+#include "core/harmonic/amplitude.hpp"
 #include "core/harmonic/motion_chart.hpp"
 #include "core/mechanics/mechanism.hpp"
 #include "tests/core/harmonic/example_models.hpp"
@@ -70,7 +71,7 @@ class TestMotionChart : public QObject {
   void strainOfAGrowingMeshIsItsGrowth() {
     const geometry::SurfaceMesh mesh = stripMesh({});
     const auto model = strip({}, mesh);
-    model->parts = {{"strip", 0, model->nodeCount(), mesh.triangles, {}, {}, {}}};
+    model->parts = {{"strip", 0, model->nodeCount(), mesh.triangles, {}, {}, {}, {}}};
     model->finish();
     const HarmonicBalanceProblem problem(model, {1, 8});
     // x = (1 + 0.1 cos τ) rest
@@ -84,6 +85,23 @@ class TestMotionChart : public QObject {
     QVERIFY(!chart("violation", problem, z.reshaped()).note.empty());
     const Oscillation o;
     QVERIFY(!chart("strain", o.problem, o.z).note.empty());
+  }
+
+  void strainOfATetrahedronIsItsGrowth() {
+    auto model = std::make_shared<Model>();
+    model->restPositions = Vector{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    model->parts = {{"tetrahedron", 0, 4, {}, {{0, 1, 2, 3}}, {}, {}, {}}};
+    addPointMass(*model, "corners", {0, 1, 2, 3}, 1);
+    model->finish();
+    const HarmonicBalanceProblem problem(model, {1, 8});
+    Matrix z = Matrix::Zero(3, model->coordinateCount());  // x = (1 + 0.1 cos τ) rest
+    z.row(0) = model->restPositions.transpose();
+    z.row(2) = 0.1 * model->restPositions.transpose();
+    const MotionChart strain = chart("strain", problem, z.reshaped());
+    const auto& series = strain.series.at(0);
+    for (Eigen::Index i = 0; i < series.x.size(); ++i)
+      QVERIFY(std::abs(series.y[i] - 0.1 * std::cos(omega * series.x[i])) < 1e-12);
+    QVERIFY(std::abs(harmonic::largestStrain(problem, z.reshaped()) - 0.1) < 1e-12);
   }
 
   void violationIsTheChangeOfALink() {

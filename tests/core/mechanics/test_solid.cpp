@@ -8,6 +8,7 @@
 #include "core/geometry/tet_mesh.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
 #include "core/mechanics/solid.hpp"
+#include "core/mechanics/strain.hpp"
 #include "tests/core/mechanics/shell_examples.hpp"
 
 using namespace pliant;
@@ -126,6 +127,7 @@ class TestSolid : public QObject {
   void cantileverFrequencyConverges_data();
   void cantileverFrequencyConverges();
   void cantileverDeflectionConverges();
+  void principalStretchesOfKnownDeformations();
   void badInputIsRefused();
 };
 
@@ -238,6 +240,43 @@ void TestSolid::cantileverDeflectionConverges() {
   qInfo("stiffness %.1f %% and %.1f %% too high, order of convergence %.2f", 100 * coarse, 100 * fine, order);
   QVERIFY(std::abs(order - 2) <= 0.3);
   QVERIFY(std::abs(1 + fine - (coarse - fine) / 3 - 1) <= 0.03);  // extrapolated to vanishing cells
+}
+
+/// Every tetrahedron is stretched along three perpendicular directions and then turned.
+void TestSolid::principalStretchesOfKnownDeformations() {
+  const geometry::TetMesh mesh = irregularBox();
+  const Eigen::Matrix3d directions = Eigen::AngleAxisd(0.7, Eigen::Vector3d(3, -1, 2).normalized()).matrix();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  Model model = solidOf(mesh, material);
+  model.parts = {{"box", 0, model.nodeCount(), {}, mesh.tetrahedra, {}, {}, {}}};
+  model.finish();
+  const Eigen::Vector3d shift(1, -2, 0.5);
+  const auto moved = [&](const Eigen::Vector3d& stretches) -> Vector {
+    const Eigen::Matrix3d gradient = turn * directions * stretches.asDiagonal() * directions.transpose();
+    return ((gradient * mesh.points).colwise() + shift).reshaped();
+  };
+  // The closed form of the eigenvalues leaves the root of rounding where the two largest ones are equal.
+  const std::vector<std::pair<Eigen::Vector3d, double>> cases{
+      {{1.3, 0.9, 0.6}, 1e-12}, {{1, 1, 1}, 1e-12}, {{0.8, 0.7, 0.5}, 1e-12}, {{0.4, 1.2, 1.2}, 1e-7}};
+  for (const auto& [stretches, tolerance] : cases) {
+    const Vector x = moved(stretches);
+    const Vector found = principalStretches(model.restPositions, x, mesh.tetrahedra);
+    QCOMPARE(found.size(), static_cast<Eigen::Index>(mesh.tetrahedra.size()));
+    const double expected = stretches.maxCoeff();
+    QVERIFY2((found.array() - expected).abs().maxCoeff() <= tolerance,
+             qPrintable(QString::number((found.array() - expected).abs().maxCoeff())));
+    QVERIFY(std::abs(largestStrain(model, x).value() - (expected - 1)) <= tolerance);
+  }
+  const Vector flat = Vector::Zero(model.coordinateCount());
+  QVERIFY(principalStretches(model.restPositions, flat, mesh.tetrahedra).isZero(0));
+
+  // Stretched across its faces, a solid shows less on its surface than there is inside.
+  model.parts[0].triangles = geometry::boundaryTriangles(mesh.tetrahedra);
+  const Vector x = moved({1.3, 0.9, 0.6});
+  QVERIFY(principalStretches(3, model.restPositions, x, model.parts[0].triangles).maxCoeff() < 1.3 - 1e-3);
+  QVERIFY(std::abs(largestStrain(model, x).value() - 0.3) <= 1e-12);
+  model.parts.clear();
+  QVERIFY(!largestStrain(model, x));
 }
 
 void TestSolid::badInputIsRefused() {
