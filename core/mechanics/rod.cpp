@@ -214,11 +214,16 @@ void RodNetwork::addMass(MassMatrix kind, std::vector<Eigen::Triplet<double>>& e
   }
 }
 
-double RodNetwork::largestTurn(const Vector& positions) const {
-  double largest = 0;
-  for (const RodSegment& segment : segments_) {
-    const Vector3d rest = edgeVector(restPositions_, segment.nodes), now = edgeVector(positions, segment.nodes);
-    largest = std::max(largest, std::atan2(rest.cross(now).norm(), rest.dot(now)));
+std::optional<double> largestTurn(const Model& model, const Vector& positions) {
+  std::optional<double> largest;
+  for (const auto& energy : model.energies) {
+    const auto* stretch = dynamic_cast<const ElementEnergy<RodStretchElement>*>(energy.get());
+    for (int e = 0; stretch && e < stretch->elementCount(); ++e) {  // one a segment
+      const auto coordinates = stretch->elementCoordinates(e);
+      const std::array<int, 2> nodes{coordinates[0] / 3, coordinates[3] / 3};
+      const Vector3d rest = edgeVector(model.restPositions, nodes), now = edgeVector(positions, nodes);
+      largest = std::max(largest.value_or(0), std::atan2(rest.cross(now).norm(), rest.dot(now)));
+    }
   }
   return largest;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/mechanics/model.hpp"
@@ -55,7 +57,7 @@ struct RodSegment {
 ///
 /// Material frames depend on the configuration alone: an edge's is its rest frame, turned by the twist about the rest
 /// tangent and then by the smallest rotation that brings the rest tangent to the edge. That is singular where an edge
-/// has turned by 180° from rest: see `largestTurn`.
+/// has turned by 180° from rest: see `largestTurn` below.
 ///
 /// Strain at a node is the rotation of one section relative to the other beyond that at rest: its components along the
 /// rest directors and tangent are the two changes of curvature and of twist, times the length. The stiffness is that of
@@ -90,9 +92,6 @@ class RodNetwork {
   /// over twistLength². A quarter of it goes to a frame at either end (about every axis alike).
   void addMass(MassMatrix kind, std::vector<Eigen::Triplet<double>>& entries) const;
 
-  /// The largest angle by which a segment has turned from rest [rad]. Past about 170° results mean nothing.
-  double largestTurn(const Vector& positions) const;
-
  private:
   struct HalfSegment;
 
@@ -105,5 +104,13 @@ class RodNetwork {
   std::map<int, int> frames_;
   int firstScalar_;
 };
+
+/// Material frames cannot be told where a segment has turned by 180° from rest; past this angle [rad] results of rods
+/// are not to be trusted.
+inline constexpr double largestTrustedTurn = 170 * std::numbers::pi / 180;
+
+/// The largest angle by which a segment of any of the model's rods has turned from rest at `positions` (of all
+/// coordinates [m]), 0 to π [rad]. None if the model has no rods.
+std::optional<double> largestTurn(const Model& model, const Vector& positions);
 
 }  // namespace pliant::mechanics

@@ -31,6 +31,7 @@ Json summaryHead(const Result& result) {
 
 void addRunInformation(Json& summary, const Result& result) {
   const Provenance& from = result.provenance;
+  summary["warnings"] = result.warnings();
   summary["seconds"] = result.seconds;
   summary["provenance"] = {{"version", from.version}, {"scene", from.sceneName},        {"scene_hash", from.sceneHash},
                            {"date", now()},           {"threads", math::threadCount()}, {"options", from.options}};

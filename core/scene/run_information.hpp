@@ -6,7 +6,7 @@ namespace pliant::scene {
 
 /// What stands at the head of every summary.json: kind, study, type, termination, message.
 Json summaryHead(const Result& result);
-/// What stands at its end: seconds and provenance.
+/// What stands at its end: warnings, seconds and provenance.
 void addRunInformation(Json& summary, const Result& result);
 /// Name, pointer, value and unit of every design parameter.
 Json parameterValues(const mechanics::Model& model);

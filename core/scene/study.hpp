@@ -36,6 +36,8 @@ class Result {
   /// Writes summary.json and the tables beside it into `directory`, atomically (a temporary folder that is renamed); an
   /// older result there is replaced. Throws base::InputError if it cannot be written or would replace anything else.
   virtual void write(const std::filesystem::path& directory) const = 0;
+  /// Sentences about what makes the numbers doubtful: in the log when the study ends, and in summary.json.
+  virtual std::vector<std::string> warnings() const { return {}; }
 
   base::TerminationType termination = base::TerminationType::failed;
   std::string message;  ///< one sentence if not converged
@@ -83,6 +85,8 @@ class HarmonicResult final : public Result {
   /// where another point has more of them), trajectories.csv (of the probes), mesh.ply (the rest shape, if there are
   /// triangles), sensitivity.csv, constraint_violation.csv (over a period, if there are rigid links).
   void write(const std::filesystem::path& directory) const override;
+  /// Of rods that turn farther than mechanics::largestTrustedTurn.
+  std::vector<std::string> warnings() const override;
   /// What `write` wrote for a scene with the same nodes. The model gets the values of the design parameters with which
   /// the result was computed. Throws base::InputError.
   static std::shared_ptr<HarmonicResult> read(const Scene& scene, const std::filesystem::path& directory);

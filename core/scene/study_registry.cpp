@@ -8,6 +8,27 @@
 
 namespace pliant::scene {
 
+namespace {
+
+/// A study that logs the warnings of what it returns, whatever its type.
+class WarningStudy final : public Study {
+ public:
+  explicit WarningStudy(std::unique_ptr<Study> study) : study_(std::move(study)) {}
+
+  std::string name() const override { return study_->name(); }
+  std::string type() const override { return study_->type(); }
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    auto result = study_->run(context, observe);
+    for (const std::string& warning : result->warnings()) context.log(base::Severity::warning, warning);
+    return result;
+  }
+
+ private:
+  std::unique_ptr<Study> study_;
+};
+
+}  // namespace
+
 StudyRegistry::StudyRegistry()
     : factories_{{"periodic_motion", makePeriodicMotionStudy},
                  {"frequency_response", makeFrequencyResponseStudy},
@@ -27,7 +48,8 @@ const std::vector<base::ParameterSpec>& StudyRegistry::specs() const { return st
 std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                            const std::string& studyName) const {
   for (const Json& options : scene.normalized()["studies"])
-    if (options["name"] == studyName) return factories_.at(options["type"])(scene, std::move(model), options);
+    if (options["name"] == studyName)
+      return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
   std::string known;
   for (const std::string& name : studyNames(scene)) known += (known.empty() ? "" : ", ") + quote(name);
   throw base::InputError(scene.name() + ": /studies", "There is no study " + quote(studyName) + "; the scene has " +

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/study.hpp"
 #include "tests/core/scene/scene_text.hpp"
 
 using namespace pliant;
@@ -135,6 +136,34 @@ class TestRodScenes : public QObject {
     } catch (const base::InputError& error) {
       QVERIFY2(QString::fromStdString(error.location()).contains("/elements/0"), error.what());
     }
+  }
+
+  void rodsThatTurnTooFarAreReported_data() {
+    QTest::addColumn<QString>("angle");
+    QTest::addColumn<int>("warnings");
+    QTest::newRow("within the limit") << "160 deg" << 0;
+    QTest::newRow("past the limit") << "175 deg" << 1;
+  }
+
+  /// A servo that is slow beside the wire's vibrations turns the whole wire to and fro.
+  void rodsThatTurnTooFarAreReported() {
+    QFETCH(QString, angle);
+    QFETCH(int, warnings);
+    const std::string study =
+        R"(, "studies": [{"name": "slow", "type": "periodic_motion", "frequency": "0.05 Hz", "harmonics": 16}])";
+    const scene::Scene scene = test::parse(wireScene(turn("[0, 0, 1]", angle.toStdString()) + study));
+    QStringList logged;
+    base::ExecutionContext context({}, [&](base::Severity severity, const std::string& message) {
+      if (severity == base::Severity::warning) logged.push_back(QString::fromStdString(message));
+    });
+    const auto result = scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), "slow")->run(context);
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    QCOMPARE(logged.size(), warnings);
+    const scene::Json inSummary = result->summary().at("warnings");
+    QCOMPARE(static_cast<int>(inSummary.size()), warnings);
+    if (warnings == 0) return;
+    QCOMPARE(QString::fromStdString(inSummary[0]), logged[0]);
+    QVERIFY2(logged[0].contains("rod turns by 175 degrees"), qPrintable(logged[0]));
   }
 
   void turningByHalfATurnIsRefused() {
