@@ -229,13 +229,14 @@ void ResponsePlot::placeLabels() {
   });
   std::vector<QRectF> taken;
   if (p.chip->isVisible()) taken.push_back(QRectF(p.chip->geometry()).adjusted(-8, -4, 8, 4));
-  const auto keepClear = [&](const std::optional<ResponsePlace>& place, double width) {
+  const auto keepClear = [&](const std::optional<ResponsePlace>& place, double reach) {
     if (!place) return;
-    taken.emplace_back(p.plot->xAxis->coordToPixel(place->omega * frequencyFactor()) - 10,
-                       p.plot->yAxis->coordToPixel(place->amplitude * p.unit.perMetre) - 10, width, 20);
+    taken.emplace_back(p.plot->xAxis->coordToPixel(place->omega * frequencyFactor()) - reach,
+                       p.plot->yAxis->coordToPixel(place->amplitude * p.unit.perMetre) - reach, 2 * reach, 2 * reach);
   };
-  keepClear(p.shownPlace, 20);
-  keepClear(p.predictedPlace, 20);
+  keepClear(p.shownPlace, 10);
+  keepClear(p.predictedPlace, 10);
+  for (const InsetItem& inset : p.insets) keepClear(inset.place, 6);  // where leaders begin
   if (p.predictedPlace) taken.push_back(predictedText);
   const QRectF frame = p.plot->axisRect()->rect();
   for (Landmark* landmark : order) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/plots/custom_plot.hpp"
 #include "ui/plots/response_plot.hpp"
 
 using namespace pliant;
@@ -74,6 +75,8 @@ class TestResponsePlot : public QObject {
   void aLargePredictionIsStillSeen();
   void theWheelZoomsAndADoubleClickShowsAll();
   void insetsStandBesideTheirPlaces();
+  void leadersOfInsetsCrossNoLabels_data();
+  void leadersOfInsetsCrossNoLabels();
   void themesDiffer();
 
  private:
@@ -245,6 +248,57 @@ void TestResponsePlot::insetsStandBesideTheirPlaces() {
   QVERIFY2(red > 2 * 85 * 55, qPrintable(QString::number(red)));
   plot_->setInsets({});
   QCOMPARE(plot_->visibleInsets(), 0);
+}
+
+void TestResponsePlot::leadersOfInsetsCrossNoLabels_data() {
+  QTest::addColumn<double>("omega");
+  for (const double omega : {0.85, 0.95, 1.05, 1.15, 1.25}) QTest::addRow("%g", omega) << omega;
+}
+
+/// Two peaks side by side, whose labels stand in each other's way, and an inset at each.
+void TestResponsePlot::leadersOfInsetsCrossNoLabels() {
+  QFETCH(double, omega);
+  ResponseCurve curve = duffingCurve();
+  curve.kinds.assign(curve.omega.size(), PointKind::regular);
+  std::vector<ResponsePlace> places;
+  const auto mark = [&](double at, PointKind kind) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < curve.omega.size() / 2; ++i)
+      if (std::abs(curve.omega[i] - at) < std::abs(curve.omega[nearest] - at)) nearest = i;
+    curve.kinds[nearest] = kind;
+    if (kind == PointKind::peak) places.push_back({curve.omega[nearest], curve.amplitude[nearest]});
+  };
+  mark(omega, PointKind::peak);
+  for (const double step : {0.01, 0.03, 0.06}) mark(omega + step, PointKind::fold);
+  mark(omega + 0.1, PointKind::peak);
+  show(curve);
+  QImage image(90, 60, QImage::Format_ARGB32_Premultiplied);
+  image.fill(Qt::red);
+  std::vector<plots::ResponseInset> insets;
+  for (const ResponsePlace& place : places) insets.push_back({place, image});
+  plot_->setInsets(insets);
+  QCoreApplication::processEvents();
+  plot_->grab();
+  QCOMPARE(plot_->visibleInsets(), static_cast<int>(places.size()));
+  auto* plot = plot_->findChild<QCustomPlot*>();
+  QVERIFY(plot);
+  int labels = 0, leaders = 0;
+  for (int i = 0; i < plot->itemCount(); ++i) {
+    const auto* label = qobject_cast<QCPItemText*>(plot->item(i));
+    if (!label || !label->visible() || label->text().isEmpty()) continue;
+    ++labels;
+    const QRectF text(label->topLeft->pixelPosition(), label->bottomRight->pixelPosition());
+    for (int j = 0; j < plot->itemCount(); ++j) {
+      const auto* leader = qobject_cast<QCPItemLine*>(plot->item(j));
+      if (!leader || !leader->visible()) continue;
+      ++leaders;
+      const QPointF from = leader->start->pixelPosition(), to = leader->end->pixelPosition();
+      for (int step = 0; step <= 1000; ++step)
+        QVERIFY2(!text.contains(from + step / 1000.0 * (to - from)), qPrintable(label->text()));
+    }
+  }
+  QVERIFY(labels >= 2);
+  QCOMPARE(leaders, labels * static_cast<int>(places.size()));
 }
 
 void TestResponsePlot::themesDiffer() {
