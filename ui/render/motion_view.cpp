@@ -18,6 +18,7 @@
 #include "ui/render/figure.hpp"
 #include "ui/render/gizmo.hpp"
 #include "ui/render/legend.hpp"
+#include "ui/render/predicted_motion.hpp"
 #include "ui/render/ring.hpp"
 #include "ui/render/vtk_text.hpp"
 
@@ -84,7 +85,7 @@ struct MotionView::Parts {
   std::shared_ptr<const HarmonicBalanceProblem> problem;
   Vector z;
   Matrix trajectories;
-  std::optional<Vector> prediction;
+  std::optional<PredictedMotion> prediction;
   std::optional<int> selected;
   double leastStretch = 0, mostStretch = 0;
   Points pose;
@@ -210,7 +211,7 @@ struct MotionView::Parts {
     predictedPaths.actor()->SetVisibility(problem && prediction);
     if (problem && prediction)
       predictedPaths.setClosedCurves(
-          nodePaths(*problem, problem->trajectories(*prediction), tracedNodes()), dashLength * layout.size);
+          nodePaths(*problem, prediction->trajectories(), tracedNodes()), dashLength * layout.size);
   }
 
   void showPose() {
@@ -229,7 +230,7 @@ struct MotionView::Parts {
 
   void showPredictedPose() {
     predicted.setVisible(problem && prediction);
-    if (problem && prediction) predicted.setPose(layout.pose(problem->configurationAt(*prediction, tau)));
+    if (problem && prediction) predicted.setPose(layout.pose(prediction->configurationAt(tau)));
   }
 };
 
@@ -281,12 +282,12 @@ void MotionView::clearMotion() {
   p.showMotion();
 }
 
-void MotionView::setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel) {
+void MotionView::setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel) {
   Parts& p = *parts_;
   if (!p.problem) return;
   const bool first = !p.prediction;
-  p.prediction = z;
   p.predicted.setMassRadii(p.layout, p.layout.massRadii(changedModel ? *changedModel : *p.model));
+  p.prediction = {p.problem, z, std::move(changedModel)};
   p.showPredictedPaths();
   p.showPredictedPose();
   if (first) p.applyTheme();

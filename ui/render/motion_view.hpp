@@ -33,8 +33,8 @@ class MotionView {
   void setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, mechanics::Vector z);
   void clearMotion();
   /// The predicted motion, coefficients of the problem given to setMotion (ignored if there is none). `changedModel`,
-  /// if given, tells the predicted point masses.
-  void setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel = nullptr);
+  /// if given, tells the predicted point masses and where driven and locked nodes are (see PredictedMotion).
+  void setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel = nullptr);
   void clearPrediction();
   /// Greys the solved motion: inputs have changed since.
   void setStale(bool stale);

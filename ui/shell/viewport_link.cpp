@@ -80,7 +80,7 @@ void ViewportLink::showPrediction() {
   if (!shown || !drawn_ || !looksAlike(shown->problem->model(), *drawn_)) return;
   viewport_.setStale(session_.isStale());
   if (session_.prediction())
-    viewport_.setPrediction(*session_.prediction(), session_.previewedModel().get());
+    viewport_.setPrediction(*session_.prediction(), session_.previewedModel());
   else
     viewport_.clearPrediction();
   viewport_.setCaption(caption());

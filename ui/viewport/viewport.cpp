@@ -84,8 +84,8 @@ void Viewport::clearMotion() {
   redraw();
 }
 
-void Viewport::setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel) {
-  view_.setPrediction(z, changedModel);
+void Viewport::setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel) {
+  view_.setPrediction(z, std::move(changedModel));
   redraw(true);
 }
 

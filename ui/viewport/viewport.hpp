@@ -30,7 +30,7 @@ class Viewport : public QWidget {
   void setModel(std::shared_ptr<const mechanics::Model> model);
   void setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z);
   void clearMotion();
-  void setPrediction(const mechanics::Vector& z, const mechanics::Model* changedModel = nullptr);
+  void setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel = nullptr);
   void clearPrediction();
   void setStale(bool stale);
   void setSelectedNode(std::optional<int> node);
