@@ -80,8 +80,9 @@ struct HarmonicBalanceProblem::Structure {
 
   Vector steadyConfiguration;
   std::vector<int> drivenCoordinates;
-  Matrix swing;              ///< driven coordinates minus their steady place at the samples: padded N x driven
-  Matrix swingCoefficients;  ///< (2H+1) x driven
+  std::vector<double> steadySignals;  ///< of each drive
+  Matrix swing;                       ///< swingAt(1)
+  Matrix swingCoefficients;           ///< (2H+1) x driven
   Vector steadyForce;
   Matrix loadCoefficients;  ///< f̂ of the free coordinates with all of the drive, (2H+1) x nFree
   double inertiaScale = 0;  ///< a ‖m‖ of forceScale [kg m]
@@ -127,29 +128,19 @@ struct HarmonicBalanceProblem::Structure {
 
   void sampleDrives(int padded) {
     steadyConfiguration = model->restPositions;
-    std::vector<Matrix> swings;
     for (const auto& drive : model->drives) {
       const std::vector<int>& driven = drive->coordinates();
-      Matrix positions(padded, static_cast<Eigen::Index>(driven.size()));
-      for (int i = 0; i < padded; ++i) {
+      Matrix positions(basis.samples(), static_cast<Eigen::Index>(driven.size()));
+      for (int i = 0; i < basis.samples(); ++i)
         positions.row(i) = drive->values(model->restPositions(driven), driveAngle(i)).transpose();
-      }
-      const auto samples = positions.topRows(basis.samples());
-      const Eigen::RowVectorXd mean = samples.colwise().mean();
+      const Eigen::RowVectorXd mean = positions.colwise().mean();
       Eigen::Index nearest = 0;
-      (samples.rowwise() - mean).rowwise().squaredNorm().minCoeff(&nearest);
-      const Eigen::RowVectorXd steady = positions.row(nearest);
-      positions.rowwise() -= steady;
-      swings.push_back(positions);
+      (positions.rowwise() - mean).rowwise().squaredNorm().minCoeff(&nearest);
+      steadySignals.push_back(drive->signal()(driveAngle(static_cast<int>(nearest))));
       drivenCoordinates.insert(drivenCoordinates.end(), driven.begin(), driven.end());
-      steadyConfiguration(driven) = steady.transpose();
+      steadyConfiguration(driven) = drive->place(model->restPositions(driven), steadySignals.back());
     }
-    swing.resize(padded, static_cast<Eigen::Index>(drivenCoordinates.size()));
-    Eigen::Index column = 0;
-    for (const Matrix& part : swings) {
-      swing.middleCols(column, part.cols()) = part;
-      column += part.cols();
-    }
+    swing = computeSwing(1, padded);
     swingCoefficients = basis.analysis() * swing.topRows(basis.samples());
     double largest = 0;
     for (Eigen::Index c = 0; c < swing.cols(); ++c)
@@ -158,6 +149,34 @@ struct HarmonicBalanceProblem::Structure {
     for (Eigen::Index f = 0; f < massToFree.cols(); ++f)
       masses[f] = massToFree.coeff(model->dofs.freeCoordinates[f], f);
     inertiaScale = largest * masses.norm();
+  }
+
+  /// A drive's coordinates at τ with `fraction` of its signal's swing, so that what turns as a whole stays whole.
+  Vector drivenPlace(std::size_t drive, double tau, double fraction) const {
+    const mechanics::PrescribedMotion& motion = *model->drives[drive];
+    const double steady = steadySignals[drive];
+    return motion.place(
+        model->restPositions(motion.coordinates()), steady + fraction * (motion.signal()(tau) - steady));
+  }
+
+  /// Driven coordinates minus their steady place at the samples: padded N x driven [m].
+  Matrix computeSwing(double fraction, Eigen::Index padded) const {
+    Matrix result(padded, static_cast<Eigen::Index>(drivenCoordinates.size()));
+    Eigen::Index column = 0;
+    for (std::size_t drive = 0; drive < model->drives.size(); ++drive) {
+      const std::vector<int>& driven = model->drives[drive]->coordinates();
+      const auto count = static_cast<Eigen::Index>(driven.size());
+      const Vector steady = steadyConfiguration(driven);
+      for (Eigen::Index i = 0; i < padded; ++i)
+        result.row(i).segment(column, count) =
+            (drivenPlace(drive, driveAngle(static_cast<int>(i)), fraction) - steady).transpose();
+      column += count;
+    }
+    return result;
+  }
+  Matrix swingAt(double fraction) const { return fraction == 1 ? swing : computeSwing(fraction, swing.rows()); }
+  Matrix swingCoefficientsAt(double fraction) const {
+    return fraction == 1 ? swingCoefficients : basis.analysis() * swingAt(fraction).topRows(basis.samples());
   }
 
   void sampleLoads() {
@@ -279,8 +298,10 @@ void HarmonicBalanceProblem::samplePositions(const Vector& z, double fraction, M
   const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
   positions.resize(s.synthesis.rows(), s.model->coordinateCount());
   positions.rowwise() = s.steadyConfiguration.transpose();
-  for (std::size_t c = 0; c < s.drivenCoordinates.size(); ++c)
-    positions.col(s.drivenCoordinates[c]) += fraction * s.swing.col(static_cast<Eigen::Index>(c));
+  if (fraction == 1)
+    positions(Eigen::all, s.drivenCoordinates) += s.swing;
+  else
+    positions(Eigen::all, s.drivenCoordinates) += s.computeSwing(fraction, s.swing.rows());
   positions(Eigen::all, s.model->dofs.freeCoordinates) = s.synthesis * coefficients;
 }
 
@@ -305,7 +326,7 @@ Matrix HarmonicBalanceProblem::inertialCoefficients(const Vector& z, const Spars
   Matrix all = Matrix::Zero(s.basis.size(), s.model->coordinateCount());
   all(Eigen::all, s.model->dofs.freeCoordinates) =
       Eigen::Map<const Matrix>(z.data(), s.basis.size(), s.model->dofs.freeCount());
-  all(Eigen::all, s.drivenCoordinates) = driveFraction_ * s.swingCoefficients;
+  all(Eigen::all, s.drivenCoordinates) = s.swingCoefficientsAt(driveFraction_);
   return all * massToFree;
 }
 
@@ -379,7 +400,7 @@ Matrix HarmonicBalanceProblem::trajectories(const Vector& z) const {
   const Structure& s = *structure_;
   const int samples = s.basis.samples();
   Matrix positions = s.steadyConfiguration.transpose().replicate(samples, 1);
-  positions(Eigen::all, s.drivenCoordinates) += driveFraction_ * s.swing.topRows(samples);
+  positions(Eigen::all, s.drivenCoordinates) += s.swingAt(driveFraction_).topRows(samples);
   positions(Eigen::all, s.model->dofs.freeCoordinates) =
       s.basis.synthesis() * Eigen::Map<const Matrix>(z.data(), s.basis.size(), s.model->dofs.freeCount());
   return positions;
@@ -399,7 +420,7 @@ Matrix HarmonicBalanceProblem::nodeTrajectory(const Vector& z, int node) const {
       const auto found = std::find(s.drivenCoordinates.begin(), s.drivenCoordinates.end(), coordinate);
       if (found != s.drivenCoordinates.end())
         positions.col(axis) +=
-            driveFraction_ * s.swing.col(found - s.drivenCoordinates.begin()).head(s.basis.samples());
+            s.swingAt(driveFraction_).col(found - s.drivenCoordinates.begin()).head(s.basis.samples());
     }
   }
   return positions;
@@ -410,9 +431,8 @@ Vector HarmonicBalanceProblem::configurationAt(const Vector& z, double tau) cons
   const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
   const Vector free = coefficients.transpose() * s.basis.valuesAt(tau);
   Vector positions = s.model->configuration(free, s.drivePeriods * tau);
-  for (const int coordinate : s.drivenCoordinates)
-    positions[coordinate] = s.steadyConfiguration[coordinate] +
-                            driveFraction_ * (positions[coordinate] - s.steadyConfiguration[coordinate]);
+  for (std::size_t drive = 0; driveFraction_ != 1 && drive < s.model->drives.size(); ++drive)
+    positions(s.model->drives[drive]->coordinates()) = s.drivenPlace(drive, s.drivePeriods * tau, driveFraction_);
   return positions;
 }
 

@@ -97,7 +97,8 @@ class HarmonicBalanceProblem {
   double forceScale(double omega) const;
 
   /// Loads and drives are split into a steady part (gravity, the mean of the loads, each drive at that sample of its
-  /// motion that is nearest to the mean) and the rest, which is multiplied by `fraction`: for ramping the drive up.
+  /// motion that is nearest to the mean) and the rest, of which there is `fraction`: of the loads, and of each drive's
+  /// signal, so that what turns stays rigid. For ramping the drive up.
   void setDriveFraction(double fraction);
   double driveFraction() const { return driveFraction_; }
 

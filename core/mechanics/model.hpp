@@ -33,13 +33,17 @@ struct HarmonicForce {
   PeriodicSignal signal;
 };
 
-/// Some coordinates as a function of τ, eliminated exactly from the unknowns.
+/// Some coordinates as a function of a signal of τ, eliminated exactly from the unknowns.
 class PrescribedMotion {
  public:
   virtual ~PrescribedMotion() = default;
   virtual const std::vector<int>& coordinates() const = 0;
-  /// Values at τ of these coordinates [m], which rest at `rest` (both of the size of coordinates()).
-  virtual Vector values(const Vector& rest, double tau) const = 0;
+  virtual const PeriodicSignal& signal() const = 0;
+  /// Values of these coordinates [m], which rest at `rest` (both of the size of coordinates()), for a value of the
+  /// signal.
+  virtual Vector place(const Vector& rest, double signalValue) const = 0;
+  /// Their values at τ.
+  Vector values(const Vector& rest, double tau) const { return place(rest, signal()(tau)); }
 };
 
 /// A node whose trajectory and amplitude are reported.

@@ -23,8 +23,9 @@ class Translation final : public PrescribedMotion {
       : coordinates_(std::move(coordinates)), direction_(std::move(direction)), signal_(std::move(signal)) {}
 
   const std::vector<int>& coordinates() const override { return coordinates_; }
-  Vector values(const Vector& rest, double tau) const override {
-    return rest + signal_(tau) * direction_.replicate(rest.size() / direction_.size(), 1);
+  const PeriodicSignal& signal() const override { return signal_; }
+  Vector place(const Vector& rest, double length) const override {
+    return rest + length * direction_.replicate(rest.size() / direction_.size(), 1);
   }
 
  private:
@@ -39,8 +40,9 @@ class Rotation final : public PrescribedMotion {
       : coordinates_(std::move(coordinates)), center_(std::move(center)), axis_(axis), signal_(std::move(signal)) {}
 
   const std::vector<int>& coordinates() const override { return coordinates_; }
-  Vector values(const Vector& rest, double tau) const override {
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(signal_(tau), axis_).toRotationMatrix();
+  const PeriodicSignal& signal() const override { return signal_; }
+  Vector place(const Vector& rest, double angle) const override {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis_).toRotationMatrix();
     const Eigen::Index d = center_.size();
     Vector positions(rest.size());
     for (Eigen::Index i = 0; i < rest.size(); i += d)
@@ -63,9 +65,8 @@ class TurningFrame final : public PrescribedMotion {
         signal_(std::move(signal)) {}
 
   const std::vector<int>& coordinates() const override { return coordinates_; }
-  Vector values(const Vector& rest, double tau) const override {
-    return rest + std::tan(signal_(tau) / 4) * scaledAxis_;
-  }
+  const PeriodicSignal& signal() const override { return signal_; }
+  Vector place(const Vector& rest, double angle) const override { return rest + std::tan(angle / 4) * scaledAxis_; }
 
  private:
   std::vector<int> coordinates_;

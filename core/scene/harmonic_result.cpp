@@ -187,7 +187,7 @@ Json HarmonicResult::summary() const {
                    {"frequency_hz", "Hz"},
                    {"path_length", "m"},
                    {"maximum_displacement", "m"},
-                   {"largest_strain", "largest principal stretch in the plane of any triangle over a period, minus 1"},
+                   {"largest_strain", "largest principal stretch of any triangle (in its plane) or tetrahedron over a period, minus 1"},
                    {"path_length_derivative", "m per unit of the parameter"},
                    {"residual", "relative to the driving force"},
                    {"correction", "relative to the swing"},

@@ -144,10 +144,22 @@ void TestHarmonicBalanceProblem::driveFraction() {
   const Matrix none = problem.trajectories(problem.restCoefficients());
   QVERIFY((none.rowwise() - none.row(0)).norm() == 0);
   QVERIFY((none.row(0).transpose() - problem.steadyConfiguration()).norm() == 0);
-  // The motion about the steady place is scaled.
+  // The motion about the steady place is scaled; what turns as a whole stays whole, and turns by less.
   problem.setDriveFraction(0.25);
   const Matrix quarter = problem.trajectories(problem.restCoefficients());
-  QVERIFY((quarter - none - 0.25 * (full - none)).norm() < 1e-15);
+  const Eigen::Index shifted = 3 * 2, turned = 0;
+  const auto swing = [&](const Matrix& motion, Eigen::Index column) -> Matrix {
+    return (motion - none).middleCols(column, 3);
+  };
+  QVERIFY(swing(full, shifted).norm() > 1e-3);
+  QVERIFY((swing(quarter, shifted) - 0.25 * swing(full, shifted)).norm() < 1e-15);
+  QVERIFY(swing(quarter, turned).norm() < 0.5 * swing(full, turned).norm());
+  const Vector center = vector3(0, 0, 0), rest = model->restPositions;
+  for (Eigen::Index i = 0; i < quarter.rows(); ++i) {
+    const Vector first = quarter.row(i).segment(0, 3).transpose(), second = quarter.row(i).segment(3, 3).transpose();
+    QVERIFY(std::abs((first - second).norm() - (rest.segment(0, 3) - rest.segment(3, 3)).norm()) < 1e-15);
+    QVERIFY(std::abs((second - center).norm() - (rest.segment(3, 3) - center).norm()) < 1e-15);
+  }
   QVERIFY((problem.configurationAt(problem.restCoefficients(), 0) - quarter.row(0).transpose()).norm() < 1e-15);
   // Of the loads, gravity and the mean of the forces stay.
   problem.setDriveFraction(0);
