@@ -1,11 +1,13 @@
 #include "core/harmonic/time_integration.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
 #include <numbers>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
@@ -19,6 +21,8 @@ using base::TerminationType;
 
 /// Starts of periods that differ by more than this fraction of the swing are not extrapolated from.
 constexpr double farthestExtrapolation = 0.05;
+/// Of the swing, by which states are disturbed for the monodromy matrix.
+constexpr double disturbance = 1e-4;
 
 /// Anderson's extrapolation of a fixed-point iteration s -> g(s), of type II with a QR decomposition a step.
 class Extrapolation {
@@ -172,18 +176,57 @@ class PeriodicIntegration {
       char message[80];
       std::snprintf(message, sizeof message, "period %d, difference %.2g m", period + 1, record.difference);
       context_.reportProgress(static_cast<double>(period + 1) / options_.maximumPeriods, message);
-      if (period > 0 && !extrapolated && meanDifference <= allowed) return end(TerminationType::converged, {});
+      if (period > 0 && !extrapolated && meanDifference <= allowed) {
+        if (options_.shooting && !findMultipliers(before)) return;
+        return end(TerminationType::converged, {});
+      }
       extrapolated = false;
       // Far from a periodic motion an extrapolated shape would not be one that the structure can take without stretch.
       // Close to the end the model goes on by itself, so that what is compared are two periods of one motion.
       const double defect = (after - before).norm();
-      if (options_.acceleration > 0 && defect > 0.5 * allowed && defect < farthestExtrapolation * result_.swing) {
+      if (defect <= 0.5 * allowed || defect >= farthestExtrapolation * result_.swing) continue;
+      if (options_.shooting) {
+        const auto monodromy = monodromyAt(before);
+        if (!monodromy) return;
+        // Of massless coordinates the start is not determined: the least change.
+        const Matrix defectRate = Matrix::Identity(before.size(), before.size()) - *monodromy;
+        restartAt(before + defectRate.completeOrthogonalDecomposition().solve(after - before));
+        extrapolated = true;
+      } else if (options_.acceleration > 0) {
         restartAt(extrapolation.next(before, after));
         extrapolated = true;
       }
     }
     end(TerminationType::iterationLimit,
         "The motion was not periodic after " + std::to_string(options_.maximumPeriods) + " periods.");
+  }
+
+  /// d(state after a period) / d(state before it); none if it was cancelled or failed.
+  std::optional<Matrix> monodromyAt(const Vector& s) {
+    Matrix monodromy(s.size(), s.size()), positions;
+    const double step = disturbance * std::max(result_.swing, 1e-300);
+    for (Eigen::Index j = 0; j < s.size(); ++j) {
+      Vector ends[2];
+      for (const int side : {0, 1}) {
+        Vector disturbed = s;
+        disturbed[j] += side == 0 ? step : -step;
+        restartAt(disturbed);
+        if (!integratePeriod(positions)) return std::nullopt;
+        ends[side] = state();
+      }
+      monodromy.col(j) = (ends[0] - ends[1]) / (2 * step);
+    }
+    return monodromy;
+  }
+
+  bool findMultipliers(const Vector& s) {
+    const auto monodromy = monodromyAt(s);
+    if (!monodromy) return false;
+    const Eigen::VectorXcd values = monodromy->eigenvalues();
+    result_.multipliers.assign(values.begin(), values.end());
+    std::stable_sort(result_.multipliers.begin(), result_.multipliers.end(),
+                     [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+    return true;
   }
 
   void end(TerminationType termination, std::string message) {
@@ -209,6 +252,9 @@ TimeIntegration integrateToPeriodicity(const HarmonicBalanceProblem& problem, do
   if (options.stepsPerPeriod < 8)
     throw base::InputError(
         "", "a time integration needs at least 8 steps a period, found " + std::to_string(options.stepsPerPeriod));
+  if (options.shooting && problem.model().dofs.freeCount() > mostShootingCoordinates)
+    throw base::InputError("", "shooting is for models of at most " + std::to_string(mostShootingCoordinates) +
+                                   " free coordinates, found " + std::to_string(problem.model().dofs.freeCount()));
   return PeriodicIntegration(problem, omega, options, context).run(start);
 }
 

@@ -143,6 +143,11 @@ const std::vector<ParameterSpec>& studySpecs() {
               withDefault(boolean("extrapolate",
                                   "Extrapolate the start of the next period from the ones before, so that transients "
                                   "need not die away; unstable motions are found as well."),
+                          false),
+              withDefault(boolean("shooting",
+                                  "Instead, once nearly periodic, Newton's method on the start of a period, with the "
+                                  "monodromy matrix by differences, which gives all Floquet multipliers as well: four "
+                                  "periods a free coordinate and iteration, for checks of small models."),
                           false)}),
       object(
           "comparison",

@@ -1,5 +1,7 @@
 #include "core/scene/time_results.hpp"
 
+#include <algorithm>
+#include <complex>
 #include <numbers>
 
 #include "core/scene/csv.hpp"
@@ -113,6 +115,14 @@ Json TimeResult::summary() const {
     for (const mechanics::Probe& probe : model->probes)
       probes.push_back(probeInTime(*model, integration.positions, probe));
   json["probes"] = probes;
+  if (!integration.multipliers.empty()) {
+    Json multipliers = Json::array();
+    for (const auto& multiplier : integration.multipliers)
+      multipliers.push_back({multiplier.real(), multiplier.imag()});
+    json["multipliers"] = multipliers;
+    json["unstable_multipliers"] = std::count_if(integration.multipliers.begin(), integration.multipliers.end(),
+                                                 [](const auto& multiplier) { return std::abs(multiplier) > 1; });
+  }
   json["newton_iterations"] = integration.newtonIterations;
   json["factorizations"] = integration.factorizations;
   json["nodes"] = model->nodeCount();

@@ -11,6 +11,8 @@
 
 namespace pliant::scene {
 
+using base::InputError;
+
 namespace {
 
 /// Samples of the loads and drives, and harmonics of what an integration from rest needs no harmonics for.
@@ -34,6 +36,13 @@ class TimeStudy : public Study {
     return integration;
   }
 
+  /// Where the study is in its scene.
+  std::string pointerTo(const Scene& scene) const {
+    const auto names = studyNames(scene);
+    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name()) - names.begin());
+    return scene.name() + ": " + childPointer("/studies", index);
+  }
+
   void finish(Result& result, const base::SolverReport& report, const base::Stopwatch& watch) const {
     result.provenance = provenance_;
     result.termination = report.termination;
@@ -50,7 +59,14 @@ class TimeStudy : public Study {
 
 class TimeIntegrationStudy final : public TimeStudy {
  public:
-  using TimeStudy::TimeStudy;
+  TimeIntegrationStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
+      : TimeStudy(scene, std::move(model), options) {
+    const int coordinates = model_->dofs.freeCount();
+    if (!options["shooting"].get<bool>() || coordinates <= harmonic::mostShootingCoordinates) return;
+    throw InputError(pointerTo(scene) + "/shooting",
+                     "Shooting is for models of at most " + std::to_string(harmonic::mostShootingCoordinates) +
+                         " free coordinates; this one has " + std::to_string(coordinates) + ".");
+  }
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
@@ -58,6 +74,7 @@ class TimeIntegrationStudy final : public TimeStudy {
     result->model = model_;
     harmonic::TimeIntegrationOptions integration = integrationOptions();
     integration.stepsPerPeriod = options_["steps_per_period"];
+    integration.shooting = options_["shooting"];
     integration.acceleration = options_["extrapolate"].get<bool>() ? extrapolationDepth : 0;
     const harmonic::HarmonicBalanceProblem problem(model_, math::HarmonicBasis(1, samplesOfRest));
     result->integration = harmonic::integrateToPeriodicity(problem, options_["frequency"], integration, context);
@@ -71,10 +88,8 @@ class ComparisonStudy final : public TimeStudy {
  public:
   ComparisonStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
       : TimeStudy(scene, std::move(model), options) {
-    const auto names = studyNames(scene);
-    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name()) - names.begin());
     const auto refuse = [&](const char* key, const char* sentence) {
-      throw base::InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + key, sentence);
+      throw InputError(pointerTo(scene) + "/" + key, sentence);
     };
     requireModestSize(scene, model_, name(), "harmonic_counts", options["harmonic_counts"].back());
     for (const char* key : {"harmonic_counts", "steps_per_period"}) {

@@ -2,6 +2,7 @@
 #include <complex>
 
 #include "core/base/error.hpp"
+#include "core/harmonic/frequency_response.hpp"
 #include "core/harmonic/method_comparison.hpp"
 #include "tests/core/harmonic/example_models.hpp"
 
@@ -80,6 +81,8 @@ class TestTimeIntegration : public QObject {
   void freeSwingKeepsItsEnergy();
   void duffingAgreesWithHarmonicBalance();
   void extrapolationFindsTheSameMotion();
+  void shootingFindsUnstableMotionsAndTheirMultipliers();
+  void shootingIsForSmallModels();
   void shellAgreesWithHarmonicBalance_data();
   void shellAgreesWithHarmonicBalance();
   void comparisonShowsBothErrors();
@@ -158,6 +161,63 @@ void TestTimeIntegration::extrapolationFindsTheSameMotion() {
   QVERIFY((plain.positions - quick.positions).cwiseAbs().maxCoeff() < 1e-6 * plain.swing);
   QVERIFY2(3 * quick.periods.size() < plain.periods.size(), qPrintable(QString::number(quick.periods.size())));
   QVERIFY(!quick.periods.back().extrapolated);
+}
+
+void TestTimeIntegration::shootingFindsUnstableMotionsAndTheirMultipliers() {
+  base::ExecutionContext context;
+  const double zeta = 0.05;
+  HarmonicBalanceProblem problem(duffing(zeta, 0.5, 0.3), {15, 64});
+  harmonic::FrequencyResponseOptions curve;
+  curve.from = 0.8;
+  curve.to = 2.2;
+  const auto response = harmonic::traceFrequencyResponse(problem, curve, context);
+  int checked = 0;
+  for (const harmonic::ResponsePoint& point : response.points) {
+    if (point.kind != harmonic::PointKind::regular) continue;
+    const bool unstable = point.stability.state == harmonic::StabilityState::unstable;
+    if (!unstable && checked % 8 != 0) continue;
+    harmonic::TimeIntegrationOptions shooting = options(1024, 1e-10);
+    shooting.shooting = true;
+    const TimeIntegration found = harmonic::integrateToPeriodicity(problem, point.omega, shooting, context, point.z);
+    QVERIFY2(found.report.converged(), found.report.message.c_str());
+    // Its error and that of the multipliers are those of the rule, of the second order in the step.
+    const double duration = 2 * pi / 1024;
+    for (int i = 0; i < 1024; i += 64) {
+      const double expected = problem.configurationAt(point.z, 2 * pi * i / 1024)[0];
+      QVERIFY(std::abs(found.positions(i, 0) - expected) < 30 * duration * duration * found.swing);
+    }
+    QCOMPARE(found.multipliers.size(), 2U);
+    QCOMPARE(std::abs(found.multipliers.front()) > 1, unstable);
+    // Liouville: the phase space shrinks by exp(-2 ζ T), which the trapezoidal rule turns into this product.
+    const double step = 2 * pi / point.omega / 1024;
+    double shrinking = 1;
+    for (int i = 0; i < 1024; ++i) {
+      const double x = found.positions(i, 0);
+      const double curved = 0.25 * step * step * (1 + 3 * 0.5 * x * x);
+      shrinking *= (1 - zeta * step + curved) / (1 + zeta * step + curved);
+    }
+    QVERIFY(std::abs(shrinking - std::exp(-2 * zeta * 2 * pi / point.omega)) < 1e-4 * shrinking);
+    const double product = std::real(found.multipliers[0] * found.multipliers[1]);
+    // As exact as central differences over a ten-thousandth of the swing.
+    QVERIFY2(std::abs(product - shrinking) < 1e-6 * shrinking, qPrintable(QString::number(product / shrinking - 1)));
+    QVERIFY(std::abs(std::abs(found.multipliers[0]) - std::abs(point.stability.multipliers[0])) <
+            1e-3 * std::abs(found.multipliers[0]));
+    checked += 1;
+  }
+  QVERIFY(checked > 5);
+}
+
+void TestTimeIntegration::shootingIsForSmallModels() {
+  StripOptions large;
+  large.lengthCells = 200;
+  const geometry::SurfaceMesh mesh = stripMesh(large);
+  auto model = strip(large, mesh);
+  model->finish();
+  const HarmonicBalanceProblem problem(model, {1, 8});
+  base::ExecutionContext context;
+  harmonic::TimeIntegrationOptions shooting = options(16, 1e-6);
+  shooting.shooting = true;
+  QVERIFY_EXCEPTION_THROWN(harmonic::integrateToPeriodicity(problem, 1, shooting, context), base::InputError);
 }
 
 void TestTimeIntegration::shellAgreesWithHarmonicBalance_data() {
