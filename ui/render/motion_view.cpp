@@ -29,6 +29,9 @@ constexpr int curveSamples = 256;
 constexpr double dashLength = 0.012;  // of the model's extent
 constexpr double captionMargin = 14;  // device-independent pixels
 constexpr int fineSamples = 8;
+/// At least so many instants of a period tell how far the motion reaches and how much it stretches: a solver may take
+/// so few samples that more happens between them.
+constexpr int fewestInstants = 64;
 
 using harmonic::HarmonicBalanceProblem;
 using mechanics::Matrix;
@@ -168,16 +171,17 @@ struct MotionView::Parts {
     Points reach = model ? layout.places(model->restPositions) : Points(3, 0);
     leastStretch = 0;
     mostStretch = 0;
-    if (problem) {
-      reach.resize(3, trajectories.rows() * reach.cols());
-      for (Eigen::Index i = 0; i < trajectories.rows(); ++i) {
-        const Points sample = layout.places(trajectories.row(i).transpose());
-        reach.middleCols(i * sample.cols(), sample.cols()) = sample;
-        if (layout.triangles.empty()) continue;
-        const Vector values = stretch(trajectories.row(i).transpose());
-        leastStretch = i == 0 ? values.minCoeff() : std::min(leastStretch, values.minCoeff());
-        mostStretch = i == 0 ? values.maxCoeff() : std::max(mostStretch, values.maxCoeff());
-      }
+    const Eigen::Index instants = problem ? std::max<Eigen::Index>(fewestInstants, trajectories.rows()) : 0;
+    if (problem) reach.resize(3, instants * reach.cols());
+    for (Eigen::Index i = 0; i < instants; ++i) {
+      const Vector positions =
+          problem->configurationAt(z, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(instants));
+      const Points sample = layout.places(positions);
+      reach.middleCols(i * sample.cols(), sample.cols()) = sample;
+      if (layout.triangles.empty()) continue;
+      const Vector values = stretch(positions);
+      leastStretch = i == 0 ? values.minCoeff() : std::min(leastStretch, values.minCoeff());
+      mostStretch = i == 0 ? values.maxCoeff() : std::max(mostStretch, values.maxCoeff());
     }
     mostStretch = std::max(mostStretch, leastStretch + 1e-12);
     layout.setReach(reach);
