@@ -169,12 +169,16 @@ Vector pathLengthGradient(const HarmonicBalanceProblem& problem, const Vector& z
 }
 
 double largestStrain(const HarmonicBalanceProblem& problem, const Vector& z) {
+  // A solver may take so few samples that a sheet is stretched more between them than at them.
+  constexpr int fewestInstants = 64;
   const Model& model = problem.model();
   if (!mechanics::largestStrain(model, model.restPositions)) return 0;
+  const int instants = std::max(fewestInstants, problem.basis().samples());
   double largest = 0;
-  const Matrix positions = problem.trajectories(z);
-  for (Eigen::Index i = 0; i < positions.rows(); ++i)
-    largest = std::max(largest, mechanics::largestStrain(model, positions.row(i)).value_or(0));
+  for (int i = 0; i < instants; ++i) {
+    const Vector positions = problem.configurationAt(z, 2 * std::numbers::pi * i / instants);
+    largest = std::max(largest, mechanics::largestStrain(model, positions).value_or(0));
+  }
   return largest;
 }
 

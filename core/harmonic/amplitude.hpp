@@ -17,8 +17,8 @@ Amplitude amplitude(const HarmonicBalanceProblem& problem, const Vector& z, int 
 /// Derivative of the path length by z (size()); instants of zero speed contribute nothing.
 Vector pathLengthGradient(const HarmonicBalanceProblem& problem, const Vector& z, int node);
 
-/// Largest strain of any triangle (in its plane) or tetrahedron at any of the samples of a period: its largest
-/// principal stretch minus 1. 0 for a model without them.
+/// Largest strain of any triangle (in its plane) or tetrahedron at as many instants of a period as there are samples,
+/// but no fewer than 64: its largest principal stretch minus 1. 0 for a model without them.
 double largestStrain(const HarmonicBalanceProblem& problem, const Vector& z);
 
 }  // namespace pliant::harmonic

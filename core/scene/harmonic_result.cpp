@@ -143,7 +143,8 @@ void addMotion(const HarmonicResult& result, Json& json) {
 void addConstraintViolation(const HarmonicResult& result, Json& json) {
   double largest = -1;
   for (const ResponsePoint& point : result.points)
-    if (const auto violations = harmonic::constraintViolations(*result.problem, point.z); violations.size() > 0)
+    if (const auto violations = harmonic::constraintViolations(*result.problemOf(point), point.z);
+        violations.size() > 0)
       largest = std::max(largest, violations.maxCoeff());
   if (largest >= 0) json["largest_constraint_violation"] = largest;
 }

@@ -57,7 +57,7 @@ std::string responseTable(const HarmonicResult& result) {
     csv.add(critical.real()).add(critical.imag());
     for (const auto& amplitude : point.amplitudes) csv.add(amplitude.pathLength).add(amplitude.maximumDisplacement);
     csv.add(point.newtonIterations);
-    if (result.hasTriangles()) csv.add(harmonic::largestStrain(*result.problem, point.z));
+    if (result.hasTriangles()) csv.add(harmonic::largestStrain(*result.problemOf(point), point.z));
     csv.endRow();
   }
   return csv.text();
@@ -116,15 +116,20 @@ std::string trajectoryTable(const HarmonicResult& result) {
 
 /// Empty where there are no rigid constraints.
 std::string constraintTable(const HarmonicResult& result) {
-  const int samples = result.problem->basis().samples();
   CsvWriter csv;
   csv.add("point").add("sample").add("omega t [rad]").add("constraint violation").endRow();
   int index = 0;
   for (const ResponsePoint& point : result.points) {
-    const mechanics::Vector violations = harmonic::constraintViolations(*result.problem, point.z);
+    const auto problem = result.problemOf(point);
+    const mechanics::Vector violations = harmonic::constraintViolations(*problem, point.z);
     if (violations.size() == 0) return {};
+    const int samples = problem->basis().samples();
     for (int sample = 0; sample < samples; ++sample)
-      csv.add(index).add(sample).add(2 * std::numbers::pi * sample / samples).add(violations[sample]).endRow();
+      csv.add(index)
+          .add(sample)
+          .add(2 * std::numbers::pi * point.drivePeriods * sample / samples)
+          .add(violations[sample])
+          .endRow();
     ++index;
   }
   return csv.text();
