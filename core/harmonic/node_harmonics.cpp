@@ -177,6 +177,7 @@ NodeHarmonicsMotion solveWithHarmonicsPerNode(HarmonicBalanceProblem problem, do
     const Vector start =
         HarmonicBalanceProblem::changeHarmonics(change.allFinite() ? Vector(padded + change) : padded, more, most);
     problem = problemLike(problem, most, std::move(wanted));
+    leftOut = std::numeric_limits<double>::quiet_NaN();  // of this problem nothing is known yet
     motion = solvePeriodicMotion(problem, omega, options, context, start);
   }
   return {std::move(problem), std::move(motion), leftOut};

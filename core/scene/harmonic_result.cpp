@@ -177,10 +177,9 @@ Json HarmonicResult::summary() const {
   json["harmonics"] = problem->basis().harmonics();
   json["samples"] = problem->basis().samples();
   json["unknowns"] = problem->unknownCount();
-  if (leftOut) {
-    json["left_out"] = *leftOut;
+  if (leftOut) json["left_out"] = *leftOut;
+  if (leftOut || problem->unknownCount() < problem->size())
     json["coordinate_harmonics"] = problem->coordinateHarmonics();
-  }
   json["nodes"] = model.nodeCount();
   json["free_coordinates"] = model.dofs.freeCount();
   json["parameters"] = parameterValues(model);
