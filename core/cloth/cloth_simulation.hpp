@@ -13,9 +13,9 @@ namespace pliant::cloth {
 
 /// A motion through given displacements and turns, linear in between, at rest before the first and after the last.
 struct Keyframe {
-  double time = 0;                                            ///< [s]
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();         ///< about the body's centre: axis times angle [rad]
+  double time = 0;                                        ///< [s]
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< about the body's centre: axis times angle [rad]
 };
 
 /// Nodes that are held: where they rest, or on a path; let go at `release` [s].
@@ -41,8 +41,8 @@ struct Wind {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   double airDensity = 1.2;                             ///< [kg/m³]
   double drag = 1;                                     ///< coefficient along the normal
-  double gust = 0;       ///< relative amplitude of a slow sinusoidal change of the velocity
-  double gustPeriod = 1; ///< [s]
+  double gust = 0;        ///< relative amplitude of a slow sinusoidal change of the velocity
+  double gustPeriod = 1;  ///< [s]
 };
 
 /// What does not change while it moves.
@@ -58,8 +58,15 @@ struct ClothProblem {
 
 /// IE and BDF-2 without limits; SAP, SAR (thesis 3.4, Algorithm 1), their BDF-2 variants BAP and BAR, and the
 /// second-order reflection of Narain, Zehnder & Thomaszewski 2019.
-enum class SteppingScheme { implicitEuler, bdf2, stepAndProject, stepAndReflect, bdf2AndProject, bdf2AndReflect,
-                            secondOrderReflect };
+enum class SteppingScheme {
+  implicitEuler,
+  bdf2,
+  stepAndProject,
+  stepAndReflect,
+  bdf2AndProject,
+  bdf2AndReflect,
+  secondOrderReflect
+};
 
 struct Energies {
   double kinetic = 0, membrane = 0, bending = 0, gravity = 0;  ///< [J]; gravity is 0 at the rest shape
