@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/cloth/strain_limiter.hpp"
-#include "core/mechanics/contact_barrier.hpp"
 #include "core/mechanics/model.hpp"
 
 namespace pliant::cloth {
