@@ -24,9 +24,10 @@ constexpr int mostCorrections = 4;
 constexpr double longEnough = 0.95;
 constexpr double smallestGain = 0.02;
 constexpr double shortStep = 0.2;
-/// So many steps so short in succession: there may be nothing that keeps the limits.
-constexpr double stallingStep = 0.02;
-constexpr int mostStalls = 4;
+/// So many steps so short in succession: the start was bad, or there is nothing that keeps the limits.
+constexpr double stallingStep = 0.05;
+constexpr int mostStalls = 3;
+constexpr int mostRestarts = 2;  ///< with a larger barrier
 
 constexpr int mostAttempts = 40;  ///< to find by how much the limits would have to be looser
 
@@ -259,10 +260,15 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
   Positions keptDx = dx, gradient(3, nodes), right(3, nodes);
   followFixedNodes(start, totalMass * size * size, x, dx);
 
-  const double barrier0 = 10 * std::max(lastObjective > 0 ? lastObjective : objectiveAt(x), absoluteGap) /
-                          std::max(1, elements.boundCount());
+  // The objective is about that of the last problem, or far below the distance from here. One that is guessed too small
+  // leads into corners.
+  const double distance = std::max(objectiveAt(x), absoluteGap);
+  const double expected = lastObjective > 0 ? std::clamp(lastObjective, 1e-4 * distance, distance) : distance;
   const bool warm = options.warmStart && hasMultipliers;
-  elements.start(x, warm ? barrier0 / 10 : barrier0, warm);
+  double barrier0 = (warm ? 1 : 10) * expected / std::max(1, elements.boundCount());
+  elements.start(x, barrier0, warm);
+  const Positions x0 = x;
+  int restarts = 0;
 
   const auto finish = [&](base::TerminationType termination, std::string message) {
     report.termination = termination;
@@ -346,9 +352,17 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
     elements.advance(best);
     report.iterations.back().stepLength = best;
     stalled = best < stallingStep ? stalled + 1 : 0;
-    if (stalled >= mostStalls && options.explainFailure) {
+    if (stalled < mostStalls) continue;
+    stalled = 0;
+    if (restarts++ < mostRestarts) {
+      x = x0;
+      barrier0 *= 1e3;
+      elements.start(x, barrier0, false);
+    } else if (options.explainFailure) {
       finish(base::TerminationType::failed, "");
       return explain(candidate, start, options, context, std::move(solution));
+    } else {
+      return finish(base::TerminationType::failed, "The projection does not get on.");
     }
   }
 }
