@@ -12,6 +12,11 @@ using base::InputError;
 
 namespace {
 
+/// Times that differ by less are the same [s].
+constexpr double sameTime = 1e-9;
+
+bool holds(const Pin& pin, double time) { return !pin.release || time <= *pin.release + sameTime; }
+
 void checkModelKind(const mechanics::Model& model) {
   if (model.dimension != 3) throw InputError("", "cloth studies need a scene of dimension 3");
   if (model.scalarCount > 0) throw InputError("", "cloth studies know neither rods nor servos");
@@ -77,6 +82,24 @@ std::vector<char> lockedNodes(const mechanics::Model& model) {
   std::vector<char> locked(static_cast<std::size_t>(model.nodeCount()));
   for (std::size_t node = 0; node < locked.size(); ++node) locked[node] = model.lockedCoordinates[3 * node];
   return locked;
+}
+
+std::vector<char> heldNodes(const ClothProblem& problem, double time) {
+  std::vector<char> held = lockedNodes(*problem.model);
+  for (const Pin& pin : problem.pins)
+    if (holds(pin, time))
+      for (const int node : pin.nodes) held[static_cast<std::size_t>(node)] = 1;
+  return held;
+}
+
+void placePins(const ClothProblem& problem, double time, Eigen::Matrix3Xd& positions) {
+  for (const Pin& pin : problem.pins)
+    if (holds(pin, time)) positions(Eigen::all, pin.nodes) = pinnedPositions(problem, pin, time);
+}
+
+bool hasLimits(const LimitedSheet& sheet) {
+  return std::any_of(sheet.triangles.begin(), sheet.triangles.end(),
+                     [](const SheetTriangle& triangle) { return triangle.limit >= 0; });
 }
 
 Energies energiesAt(const ClothProblem& problem, const Eigen::Matrix3Xd& positions,

@@ -72,6 +72,14 @@ Eigen::Matrix3Xd pinnedPositions(const ClothProblem& problem, const Pin& pin, do
 /// Nodes whose three coordinates the model locks: pins that never move.
 std::vector<char> lockedNodes(const mechanics::Model& model);
 
+/// Which nodes are held at `time`: those the model locks, and those of pins that are not released before it.
+std::vector<char> heldNodes(const ClothProblem& problem, double time);
+
+/// Moves the nodes of pins that hold at `time` to where they are then.
+void placePins(const ClothProblem& problem, double time, Eigen::Matrix3Xd& positions);
+
+bool hasLimits(const LimitedSheet& sheet);
+
 /// Kinetic, elastic and gravity energy (constant forces count as gravity) at positions and velocities (3 x nodes).
 Energies energiesAt(const ClothProblem& problem, const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& velocities);
 

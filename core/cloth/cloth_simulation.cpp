@@ -12,9 +12,6 @@ using base::InputError;
 
 namespace {
 
-/// Times closer than this fraction of a step are the same.
-constexpr double sameTime = 1e-9;
-
 void requirePositiveOption(double value, const char* what) {
   if (!(std::isfinite(value) && value > 0)) throw InputError("", std::string(what) + " must be a number above 0");
 }
@@ -80,30 +77,20 @@ Eigen::Matrix3Xd ClothSimulation::bodyPointsAt(const ClothProblem& problem, doub
 }
 
 void ClothSimulation::updateHeld() {
-  std::vector<char> held = lockedNodes(*problem_->model);
-  const double end = state_.time + options_.timeStep;
-  for (const Pin& pin : problem_->pins)
-    if (!pin.release || end <= *pin.release + sameTime * options_.timeStep)
-      for (const int node : pin.nodes) held[static_cast<std::size_t>(node)] = 1;
+  std::vector<char> held = heldNodes(*problem_, state_.time + options_.timeStep);
   for (const auto& [node, position] : targets_) held[static_cast<std::size_t>(node)] = 1;
   if (held == sheet_.fixed) return;
   sheet_.fixed = held;
   potential_.setHeld(held);
   limiter_.reset();
-  const bool limited = std::any_of(sheet_.triangles.begin(), sheet_.triangles.end(),
-                                   [](const SheetTriangle& triangle) { return triangle.limit >= 0; });
-  if (keepsLimits(options_.scheme) && options_.limitMethod != "none" && limited)
+  if (keepsLimits(options_.scheme) && options_.limitMethod != "none" && hasLimits(sheet_))
     limiter_ = makeLimiter_(sheetCones(sheet_, options_.norm));
 }
 
 Vector ClothSimulation::withPins(Vector positions, double fraction) const {
-  const double time = state_.time + fraction * options_.timeStep;
-  for (const Pin& pin : problem_->pins) {
-    const Eigen::Matrix3Xd places = pinnedPositions(*problem_, pin, time);
-    for (std::size_t i = 0; i < pin.nodes.size(); ++i)
-      if (sheet_.fixed[static_cast<std::size_t>(pin.nodes[i])] && !(pin.release && time > *pin.release))
-        positions.segment<3>(3 * pin.nodes[i]) = places.col(static_cast<Eigen::Index>(i));
-  }
+  Eigen::Matrix3Xd places = positions.reshaped(3, state_.positions.cols());
+  placePins(*problem_, state_.time + fraction * options_.timeStep, places);
+  positions = places.reshaped();
   for (const auto& [node, target] : targets_)
     positions.segment<3>(3 * node) = (1 - fraction) * state_.positions.col(node) + fraction * target;
   return positions;

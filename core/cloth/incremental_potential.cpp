@@ -95,6 +95,12 @@ void IncrementalPotential::beginWind(const Eigen::Matrix3Xd& positions, double t
   if (wind_) wind_->begin(positions, time);
 }
 
+Vector IncrementalPotential::windForce() const {
+  Vector result = Vector::Zero(masses_.size());
+  if (wind_) wind_->addGradient(Vector::Zero(masses_.size()), -1, result);
+  return result;
+}
+
 double IncrementalPotential::value(const Vector& x) const {
   const mechanics::Model& model = *problem_->model;
   const double rate = terms_.rate;

@@ -57,6 +57,8 @@ class IncrementalPotential {
   /// ∇E on all coordinates, held ones included [N].
   Vector elasticForce(const Vector& x) const { return assembler_.gradient(x); }
   const Vector& externalForce() const { return externalForce_; }
+  /// Of the air on a cloth at rest, with normals as in beginWind [N].
+  Vector windForce() const;
   /// Per coordinate [kg].
   const Vector& masses() const { return masses_; }
   /// The diagonal of the box around the rest shape [m].
