@@ -11,22 +11,6 @@ namespace {
 constexpr double keptShare = 0.1;      // of the gap: what an advance leaves, and what ends the search
 constexpr int largestAdvances = 1000;  // any fraction reached on the way is safe
 
-/// The unit vector from B's closest point to A's. Where the points are free to slide it is made perpendicular to that:
-/// their difference alone has an error of the rounding of the coordinates, over the distance.
-Eigen::Vector3d directionBetween(const Corners& corners, const ClosestPoints& closest) {
-  Eigen::Vector3d difference = corners * closest.weights;
-  const Eigen::Matrix<double, 3, 2> tangents = corners * closest.slopes;
-  if (closest.parameterCount == 2) {
-    const Eigen::Vector3d normal = tangents.col(0).cross(tangents.col(1));
-    return normal.normalized() * (normal.dot(difference) < 0 ? -1 : 1);
-  }
-  if (closest.parameterCount == 1) {
-    const auto tangent = tangents.col(0);
-    difference -= tangent * (tangent.dot(difference) / tangent.squaredNorm());
-  }
-  return difference.normalized();
-}
-
 /// After which time at the earliest the gap along the unit vector n can have shrunk to keptShare of what it is now, if
 /// all corners move on with their velocities.
 double advanceAlong(const Eigen::Vector3d& n, SimplexPair pair, const Corners& now, const Corners& velocity,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <utility>
 
 namespace pliant::geometry {
 
@@ -90,6 +91,19 @@ ClosestPoints closestOfEdges(const Corners& corners) {
   return closest;
 }
 
+/// r and dr/du.
+std::pair<Vector3d, Eigen::Matrix<double, 3, 2>> differenceAndTangents(const Corners& corners,
+                                                                       const ClosestPoints& closest) {
+  Vector3d difference = Vector3d::Zero();
+  Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+  for (int i = 0; i < 4; ++i) {
+    if (closest.weights[i] == 0) continue;  // columns that are not used may hold anything, even NaN
+    difference += closest.weights[i] * corners.col(i);
+    tangents += corners.col(i) * closest.slopes.row(i);
+  }
+  return {difference, tangents};
+}
+
 }  // namespace
 
 ClosestPoints closestPoints(SimplexPair pair, const Corners& corners) {
@@ -105,16 +119,20 @@ ClosestPoints closestPoints(SimplexPair pair, const Corners& corners) {
   return closest;
 }
 
+Eigen::Vector3d directionBetween(const Corners& corners, const ClosestPoints& closest) {
+  auto [difference, tangents] = differenceAndTangents(corners, closest);
+  if (closest.parameterCount == 2) {
+    const Vector3d normal = tangents.col(0).cross(tangents.col(1));
+    return normal.normalized() * (normal.dot(difference) < 0 ? -1 : 1);
+  }
+  if (closest.parameterCount == 1)
+    difference -= tangents.col(0) * (tangents.col(0).dot(difference) / tangents.col(0).squaredNorm());
+  return difference.normalized();
+}
+
 void squaredDistanceDerivatives(const Corners& corners, const ClosestPoints& closest, CornerVector* gradient,
                                 CornerMatrix* hessian) {
-  // Columns that are not used may hold anything, even NaN.
-  Vector3d difference = Vector3d::Zero();
-  Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
-  for (int i = 0; i < 4; ++i) {
-    if (closest.weights[i] == 0) continue;
-    difference += closest.weights[i] * corners.col(i);
-    tangents += corners.col(i) * closest.slopes.row(i);
-  }
+  const auto [difference, tangents] = differenceAndTangents(corners, closest);
   if (gradient)
     for (int i = 0; i < 4; ++i) gradient->segment<3>(3 * i) = 2 * closest.weights[i] * difference;
   if (!hessian) return;

@@ -42,6 +42,11 @@ struct ClosestPoints {
 /// multiple of 10⁻¹⁶/θ² times the distance over the length.
 ClosestPoints closestPoints(SimplexPair pair, const Corners& corners);
 
+/// The unit vector n = r / |r| from B's closest point to A's. Where the points are free to slide it is perpendicular to
+/// that up to rounding, however near they are; their difference alone would carry the rounding of the coordinates over
+/// the distance. Finite but arbitrary at distance 0 between points.
+Eigen::Vector3d directionBetween(const Corners& corners, const ClosestPoints& closest);
+
 /// First and second derivatives of the squared distance D by the corners [m, 1], within the region of `closest`: with
 /// f(x, u) = |r|², D = min_u f, ∇D = f_x and ∇²D = f_xx - f_xu f_uu⁻¹ f_ux. The gradient is continuous across regions,
 /// except where edges are parallel; the Hessian is not. Outputs that are null are not computed.
