@@ -26,7 +26,7 @@ constexpr int mostNewtonSteps = 60;  ///< for one barrier
 constexpr int mostMoves = 200;       ///< of bodies and held nodes, each as far as nothing is in the way
 constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
 constexpr int mostStuck = 10;
-constexpr int stepsBetweenMoves = 3;  ///< with which the sheet gets out of the way
+constexpr int stepsBetweenMoves = 20;  ///< with which the sheet gets out of the way
 constexpr double armijo = 1e-4;
 
 }  // namespace
@@ -144,7 +144,9 @@ struct ContactProjection::Implementation {
       motion.rightCols(bodies.cols()) = bodiesTo - bodies;
       if (motion.isZero(0)) return true;
       if (context.cancelRequested()) return false;
+      // Half of what is possible: from very small gaps Newton's method comes back only by a factor of two a step.
       double step = contact->largestStep(withBodies(x), motion);
+      if (step < 1) step *= 0.5;
       while (step > leastMove && !std::isfinite(elements->centre(x + step * motion.leftCols(nodes), barrier)))
         step *= 0.5;
       if (step <= leastMove) {
@@ -158,8 +160,10 @@ struct ContactProjection::Implementation {
         bodies += step * motion.rightCols(bodies.cols());
       }
       double energy = value(x, barrier);
-      for (int k = 0; k < stepsBetweenMoves; ++k)
-        if (!newtonStep(x, barrier, energy)) break;
+      for (int k = 0; k < stepsBetweenMoves; ++k) {
+        const std::optional<double> decrement = newtonStep(x, barrier, energy);
+        if (!decrement || *decrement <= centred * barrier * elements->boundCount()) break;
+      }
     }
     return false;
   }
@@ -236,14 +240,19 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
     const bool last = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least);
     const double enough = (last ? finallyCentred : centred) * barrier * bounds;
     double energy = own.value(x, barrier);
-    for (int k = 0; k < mostNewtonSteps; ++k) {
+    bool reachedEnough = false;
+    for (int k = 0; k < mostNewtonSteps && !reachedEnough; ++k) {
       if (context.cancelRequested()) return finish(TerminationType::cancelled, "The projection was cancelled.");
       const std::optional<double> decrement = own.newtonStep(x, barrier, energy);
       report.iterations.push_back({iteration++, barrier * bounds / std::max(own.distance(x), least), 1, 0});
-      if (!decrement || *decrement <= enough) break;
+      if (!decrement) break;
+      reachedEnough = *decrement <= enough;
     }
     // Where all bounds are centred, they cost `barrier` each.
-    if (last) return finish(TerminationType::converged, "");
+    if (last && reachedEnough) return finish(TerminationType::converged, "");
+    if (last)
+      return finish(TerminationType::iterationLimit,
+                    "The projection keeps limits and contact, but it is not as near to the candidate as asked.");
     if (iteration >= 20 * options.maximumIterations)
       return finish(TerminationType::iterationLimit, "The projection with contact did not converge.");
     barrier *= barrierReduction;
