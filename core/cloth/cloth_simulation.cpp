@@ -39,8 +39,10 @@ ClothSimulation::ClothSimulation(std::shared_ptr<const ClothProblem> problem, St
   const auto rest = problem_->model->restPositions.reshaped(3, problem_->model->nodeCount());
   state_.positions = rest;
   state_.velocities.setZero(3, rest.cols());
+  makeContact();
   updateHeld();
   state_.positions = withPins(state_.positions.reshaped(), 0).reshaped(3, rest.cols());
+  requireFree();
 }
 
 ClothSimulation::~ClothSimulation() = default;
@@ -53,6 +55,7 @@ void ClothSimulation::setState(double time, const Eigen::Matrix3Xd& positions, c
   if (!positions.allFinite() || !velocities.allFinite() || !std::isfinite(time))
     throw InputError("", "a state needs finite positions and velocities");
   state_ = {time, positions, velocities, {}, {}};
+  requireFree();
 }
 
 void ClothSimulation::setPinTarget(int node, const Eigen::Vector3d& position) {
@@ -76,6 +79,52 @@ Eigen::Matrix3Xd ClothSimulation::bodyPointsAt(const ClothProblem& problem, doub
   return points;
 }
 
+void ClothSimulation::makeContact() {
+  if (problem_->bodies.empty() && !problem_->selfContact) return;
+  if (options_.scheme == SteppingScheme::stepAndReflect || options_.scheme == SteppingScheme::bdf2AndReflect ||
+      options_.scheme == SteppingScheme::secondOrderReflect)
+    throw InputError("", "cloth that touches bodies or itself cannot be stepped by a scheme that reflects; "
+                         "step_and_project and bdf2_and_project keep contact");
+  const int nodes = problem_->model->nodeCount();
+  mechanics::ContactGeometry geometry;
+  geometry.selfContact = problem_->selfContact;
+  for (const SheetTriangle& triangle : sheet_.triangles) geometry.triangles.push_back(triangle.nodes);
+  geometry.radii.assign(static_cast<std::size_t>(nodes), 0);
+  geometry.bodies.assign(static_cast<std::size_t>(nodes), 0);
+  int first = nodes, number = 0;
+  for (const Body& body : problem_->bodies) {
+    const int count = static_cast<int>(body.points.cols());
+    for (const auto& [a, b, c] : body.triangles) geometry.triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b] : body.edges) geometry.edges.push_back({first + a, first + b});
+    if (body.triangles.empty() && body.edges.empty())
+      for (int i = 0; i < count; ++i) geometry.points.push_back(first + i);
+    geometry.radii.insert(geometry.radii.end(), static_cast<std::size_t>(count), body.radius);
+    geometry.bodies.insert(geometry.bodies.end(), static_cast<std::size_t>(count), ++number);
+    first += count;
+  }
+  const double range = problem_->contactDistance;
+  requirePositiveOption(range, "the contact distance");
+  // Half-way into the range, where the barrier falls by 1.193 range a metre, a pair pushes ten times as hard as a node
+  // weighs.
+  const double gravity = 9.81;
+  const double stiffness = 10 * sheet_.masses.mean() * gravity / (1.193 * range);
+  Eigen::Matrix3Xd rest(3, first);
+  rest << problem_->model->restPositions.reshaped(3, nodes), bodyPointsAt(*problem_, 0);
+  contact_ = std::make_shared<mechanics::ContactBarrier>(
+      std::move(geometry), rest, mechanics::ContactOptions{.range = range, .stiffness = stiffness, .separation = 0});
+}
+
+void ClothSimulation::requireFree() const {
+  if (contact_) contact_->requireFree(withBodies(state_.positions, state_.time));
+}
+
+Eigen::Matrix3Xd ClothSimulation::withBodies(const Eigen::Matrix3Xd& positions, double time) const {
+  const Eigen::Matrix3Xd bodies = bodyPointsAt(*problem_, time);
+  Eigen::Matrix3Xd all(3, positions.cols() + bodies.cols());
+  all << positions, bodies;
+  return all;
+}
+
 void ClothSimulation::updateHeld() {
   std::vector<char> held = heldNodes(*problem_, state_.time + options_.timeStep);
   for (const auto& [node, position] : targets_) held[static_cast<std::size_t>(node)] = 1;
@@ -83,7 +132,12 @@ void ClothSimulation::updateHeld() {
   sheet_.fixed = held;
   potential_.setHeld(held);
   limiter_.reset();
-  if (keepsLimits(options_.scheme) && options_.limitMethod != "none" && hasLimits(sheet_))
+  if (contact_) {
+    LimitedSheet sheet = sheet_;
+    if (!keepsLimits(options_.scheme) || options_.limitMethod == "none")
+      for (SheetTriangle& triangle : sheet.triangles) triangle.limit = -1;
+    contactProjection_ = std::make_unique<ContactProjection>(sheetCones(sheet, options_.norm).constraints, contact_);
+  } else if (keepsLimits(options_.scheme) && options_.limitMethod != "none" && hasLimits(sheet_))
     limiter_ = makeLimiter_(sheetCones(sheet_, options_.norm));
 }
 
@@ -128,6 +182,12 @@ StepRecord ClothSimulation::step(base::ExecutionContext& context) {
   StepRecord& record = attempt.record;
   record.time = state_.time;
   record.energies = energies();
+  if (contact_) {
+    const Eigen::Matrix3Xd all = withBodies(state_.positions, state_.time);
+    contact_->update(all);
+    record.energies.contact = contact_->value();
+    record.smallestGap = contact_->smallestGap(all);
+  }
   if (!sheet_.limits.empty()) record.violation = std::max(0.0, stretchRatios(sheet_, state_.positions).maxCoeff() - 1);
   return record;
 }

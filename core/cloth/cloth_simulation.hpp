@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "core/cloth/contact_projection.hpp"
 #include "core/cloth/incremental_potential.hpp"
 
 namespace pliant::cloth {
@@ -79,6 +80,10 @@ using LimiterFactory = std::function<std::unique_ptr<StrainLimiter>(const SheetC
 ///    is active, the scheme is of second order and keeps energy. Stretch limits are curved; along them it is of first
 ///    order, with an eighth of step-and-project's error for a pendulum at the end of its tether.
 /// Wind and damping: see WindDrag and StepTerms.
+///
+/// With bodies or self-contact P also keeps the cloth from going through them (ContactProjection): the candidate ignores
+/// contact, and P starts from x₀, which is free of it. Reflected positions would not be, so the schemes that reflect
+/// refuse contact.
 class ClothSimulation {
  public:
   /// Starts at rest in the model's rest positions, pins where their paths are at time 0. `makeLimiter` stands in for
@@ -112,6 +117,9 @@ class ClothSimulation {
 
  private:
   struct Attempt;
+  void makeContact();
+  void requireFree() const;
+  Eigen::Matrix3Xd withBodies(const Eigen::Matrix3Xd& positions, double time) const;
   void updateHeld();
   /// All positions with held nodes where they are a fraction of the step after its start.
   Vector withPins(Vector positions, double fraction) const;
@@ -128,6 +136,8 @@ class ClothSimulation {
   IncrementalPotential potential_;
   LimitedSheet sheet_;  ///< with `fixed` as pins are now
   std::unique_ptr<StrainLimiter> limiter_;
+  std::shared_ptr<mechanics::ContactBarrier> contact_;     ///< null without bodies and self-contact
+  std::unique_ptr<ContactProjection> contactProjection_;  ///< stands for the limiter where there is contact
   ClothState state_;
   std::map<int, Eigen::Vector3d> targets_;
 };

@@ -6,6 +6,9 @@ using base::TerminationType;
 
 namespace {
 
+/// Of projections with contact, whose optimum is a local one.
+constexpr double contactGap = 1e-5;
+
 Eigen::Matrix3Xd asPoints(const Vector& coordinates) { return coordinates.reshaped(3, coordinates.size() / 3); }
 
 }  // namespace
@@ -36,11 +39,12 @@ bool ClothSimulation::Attempt::advance(StepTerms terms, const Vector& from, doub
 }
 
 bool ClothSimulation::Attempt::project(Vector& candidate) {
-  if (!simulation.limiter_) return true;
+  if (!simulation.limiter_ && !simulation.contactProjection_) return true;
   const base::Stopwatch watch;
   const Eigen::Matrix3Xd& start = record.projection ? record.projection->positions : simulation.state_.positions;
-  auto solution =
-      std::make_shared<solvers::ConeSolution>(simulation.limiter_->project(asPoints(candidate), start, context));
+  auto solution = std::make_shared<solvers::ConeSolution>(
+      simulation.contactProjection_ ? projectWithContact(asPoints(candidate))
+                                    : simulation.limiter_->project(asPoints(candidate), start, context));
   ++record.projections;
   record.projectionIterations += static_cast<int>(solution->report.iterations.size());
   record.projectionSeconds += watch.seconds();
@@ -52,6 +56,17 @@ bool ClothSimulation::Attempt::project(Vector& candidate) {
   candidate = solution->positions.reshaped();
   record.projection = std::move(solution);
   return termination == TerminationType::converged || termination == TerminationType::iterationLimit;
+}
+
+solvers::ConeSolution ClothSimulation::Attempt::projectWithContact(const Eigen::Matrix3Xd& candidate) {
+  const ClothProblem& problem = *simulation.problem_;
+  solvers::ConeProgramOptions options = simulation.options_.projection.cone;
+  options.relativeGap = std::max(options.relativeGap, contactGap);
+  const double time = simulation.state_.time;
+  return simulation.contactProjection_->project(
+      candidate, simulation.state_.positions,
+      {bodyPointsAt(problem, time), bodyPointsAt(problem, time + simulation.options_.timeStep)},
+      simulation.potential_.terms().rate, options, context);
 }
 
 bool ClothSimulation::stepOnce(Attempt& attempt) {

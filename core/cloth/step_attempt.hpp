@@ -14,6 +14,7 @@ struct ClothSimulation::Attempt {
   bool advance(StepTerms terms, const Vector& x, double fraction, Vector& candidate);
   /// Moves `x`, a candidate, to what keeps the limits. False if there is nothing that does.
   bool project(Vector& x);
+  solvers::ConeSolution projectWithContact(const Eigen::Matrix3Xd& candidate);
 
   ClothSimulation& simulation;
   base::ExecutionContext& context;

@@ -123,6 +123,7 @@ std::vector<ContactPair> ContactPrimitives::nearPairs(const Eigen::Matrix3Xd& fr
     for (const auto& [sideA, sideB] : {std::array{0, 0}, std::array{0, 1}, std::array{1, 0}}) {
       const bool own = &a == &b;
       if (own && sideA == 1) continue;  // found the other way round
+      if (sideA == 0 && sideB == 0 && !geometry_.selfContact) continue;
       const auto& primitivesA = a[sideA];
       const auto& primitivesB = b[sideB];
       const auto apart = [&](int i, int j) { return !sharesNode(primitivesA[i], primitivesB[j]); };

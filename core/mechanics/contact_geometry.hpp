@@ -18,9 +18,9 @@ struct ContactGeometry {
   std::vector<std::array<int, 2>> edges;  ///< besides the sides of triangles
   std::vector<int> points;                ///< besides the ends of edges
   std::vector<double> radii;              ///< [m], one a node
-  /// One a node. Deformable nodes (0) may collide with everything, themselves included; others with deformable ones
-  /// only.
+  /// One a node. Deformable nodes (0) may collide with everything; others with deformable ones only.
   std::vector<int> bodies;
+  bool selfContact = true;  ///< whether deformable nodes may collide with themselves
 
   int nodeCount() const { return static_cast<int>(bodies.size()); }
 };
