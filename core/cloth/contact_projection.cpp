@@ -22,6 +22,7 @@ constexpr double firstBarrier = 1;  ///< times the objective over the number of 
 /// Newton's method moves on to the next barrier when what is left to gain is this part of what the bounds cost.
 constexpr double centred = 1e-2;
 constexpr double finallyCentred = 1e-12;
+constexpr double smallestSlack = 1e-8;
 constexpr int mostNewtonSteps = 60;  ///< for one barrier
 constexpr int mostMoves = 200;       ///< of bodies and held nodes, each as far as nothing is in the way
 constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
@@ -237,7 +238,9 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
   }
   int iteration = 0;
   while (true) {
-    const bool last = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least);
+    // Nearer to the limits the next step could not start: the barrier's Hessian would lose all digits.
+    const bool last = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least) ||
+                      own.elements->smallestSlack() < smallestSlack;
     const double enough = (last ? finallyCentred : centred) * barrier * bounds;
     double energy = own.value(x, barrier);
     bool reachedEnough = false;

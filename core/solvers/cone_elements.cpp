@@ -200,6 +200,7 @@ void ConeElements::start(const Positions& x, double barrier, bool keep) {
 
 double ConeElements::centre(const Positions& x, double barrier) {
   double sum = 0;
+  smallestSlack_ = 0.5;
   const auto addLogarithms = [&](const Group& group, const Packet& determinant) {
     for (int lane = 0; lane < lanes; ++lane) {
       if (group.element[lane] < 0) continue;
@@ -220,12 +221,14 @@ double ConeElements::centre(const Positions& x, double barrier) {
       for (int lane = 0; lane < lanes; ++lane)
         if (!(trace[lane] > 0) && group.element[lane] >= 0) return -std::numeric_limits<double>::infinity();
       if (!addLogarithms(group, cone.s.determinant())) return -std::numeric_limits<double>::infinity();
+      smallestSlack_ = std::min(smallestSlack_, -largestOf(-cone.s.determinant() / trace));
     }
     for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
       Direction& cone = directions_[group.firstDirection + k];
       cone.s = 0.5 * (1.0 - along(metric, bounds.directions[k]));
       cone.l = barrier / cone.s;
       if (!addLogarithms(group, cone.s)) return -std::numeric_limits<double>::infinity();
+      smallestSlack_ = std::min(smallestSlack_, -largestOf(-cone.s));
     }
   }
   return sum;

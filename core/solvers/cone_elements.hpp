@@ -37,6 +37,8 @@ class ConeElements {
   /// S as x leaves it and Λ = barrier S⁻¹, whose forces are the derivatives of -barrier Σ log det S. Returns Σ log det
   /// S, or minus infinity (and has set nothing of use) if x does not lie inside of all bounds.
   double centre(const Positions& x, double barrier);
+  /// At the last `centre`, to within a factor of two.
+  double smallestSlack() const { return smallestSlack_; }
 
   /// What is known at x with the present slacks and multipliers.
   struct Linearization {
@@ -109,6 +111,7 @@ class ConeElements {
   std::vector<int> ellipseOf_;    ///< per element: the first of its ellipses among all, and the end
   std::vector<int> directionOf_;  ///< the same for directions
   int boundCount_ = 0;
+  double smallestSlack_ = 0;
 };
 
 }  // namespace pliant::solvers
