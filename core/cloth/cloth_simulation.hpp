@@ -81,9 +81,9 @@ using LimiterFactory = std::function<std::unique_ptr<StrainLimiter>(const SheetC
 ///    order, with an eighth of step-and-project's error for a pendulum at the end of its tether.
 /// Wind and damping: see WindDrag and StepTerms.
 ///
-/// With bodies or self-contact P also keeps the cloth from going through them (ContactProjection): the candidate ignores
-/// contact, and P starts from x₀, which is free of it. Reflected positions would not be, so the schemes that reflect
-/// refuse contact.
+/// With bodies or self-contact P also keeps the cloth from going through them (ContactProjection): the candidate
+/// ignores contact, and P starts from x₀, which is free of it. Reflected positions would not be, so the schemes that
+/// reflect refuse contact.
 class ClothSimulation {
  public:
   /// Starts at rest in the model's rest positions, pins where their paths are at time 0. `makeLimiter` stands in for
@@ -136,7 +136,7 @@ class ClothSimulation {
   IncrementalPotential potential_;
   LimitedSheet sheet_;  ///< with `fixed` as pins are now
   std::unique_ptr<StrainLimiter> limiter_;
-  std::shared_ptr<mechanics::ContactBarrier> contact_;     ///< null without bodies and self-contact
+  std::shared_ptr<mechanics::ContactBarrier> contact_;    ///< null without bodies and self-contact
   std::unique_ptr<ContactProjection> contactProjection_;  ///< stands for the limiter where there is contact
   ClothState state_;
   std::map<int, Eigen::Vector3d> targets_;

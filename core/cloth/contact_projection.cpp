@@ -22,7 +22,8 @@ constexpr double firstBarrier = 1;  ///< times the objective over the number of 
 /// Newton's method moves on to the next barrier when what is left to gain is this part of what the bounds cost.
 constexpr double centred = 1e-2;
 constexpr double finallyCentred = 1e-12;
-constexpr double smallestSlack = 1e-8;
+constexpr double smallestSlack = 1e-7;
+constexpr double largestInertia = 1e20;
 constexpr int mostNewtonSteps = 60;  ///< for one barrier
 constexpr int mostMoves = 200;       ///< of bodies and held nodes, each as far as nothing is in the way
 constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
@@ -81,16 +82,12 @@ struct ContactProjection::Implementation {
     return distance(x) + contact->value() * scale - barrier * logarithms;
   }
 
-  /// One Newton step with line search from `x`, whose value is `energy`. Returns half the squared decrement, or nothing
-  /// if no step lowers the value.
-  std::optional<double> newtonStep(Positions& x, double barrier, double& energy) {
-    layOut();
-    elements->centre(x, barrier);
-    const Eigen::Index nodes = constraints.nodeCount;
-    Positions forces = Positions::Zero(3, nodes), ignored = forces, push = forces;
+  /// The Hessian with `inertia` times the masses, and the limits' forces.
+  bool factorize(const Positions& x, double inertia, Positions& forces) {
+    Positions ignored = Positions::Zero(3, x.cols());
+    forces.setZero();
     cholesky->clear();
     elements->linearize(x, forces, ignored, *cholesky);
-    contact->addGradient(push);
     double* values = cholesky->values();
     for (const mechanics::ContactBlock& block : blocks) {
       const int p = vertexOfNode[block.row], q = vertexOfNode[block.column];
@@ -101,17 +98,34 @@ struct ContactProjection::Implementation {
           values[place.offset + Eigen::Index{j} * place.stride + i] +=
               scale * (place.transposed ? block.entry(j, i) : block.entry(i, j));
     }
+    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v) {
+      const auto place = cholesky->place(static_cast<int>(v), static_cast<int>(v));
+      for (int i = 0; i < 3; ++i)
+        values[place.offset + Eigen::Index{i} * (place.stride + 1)] += inertia * constraints.masses[nodeOfVertex[v]];
+    }
+    return cholesky->factorize();
+  }
+
+  /// One Newton step with line search from `x`, whose value is `energy`. Returns half the squared decrement, or nothing
+  /// if no step lowers the value.
+  std::optional<double> newtonStep(Positions& x, double barrier, double& energy) {
+    layOut();
+    elements->centre(x, barrier);
+    const Eigen::Index nodes = constraints.nodeCount;
+    Positions forces(3, nodes), push = Positions::Zero(3, nodes);
+    // Very near to a limit the barrier is so stiff that the matrix loses its small eigenvalues to rounding; more
+    // inertia keeps them, and the step still leads away from the limit.
+    double inertia = 1;
+    while (!factorize(x, inertia, forces)) {
+      inertia *= 1e3;
+      if (inertia > largestInertia) return std::nullopt;
+    }
+    contact->addGradient(push);
     Eigen::VectorXd unknowns(3 * static_cast<Eigen::Index>(nodeOfVertex.size()));
     Positions gradient = (x - *candidate) * constraints.masses.asDiagonal();
     gradient += forces + scale * push;
-    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v) {
-      const int node = nodeOfVertex[v];
-      const auto place = cholesky->place(static_cast<int>(v), static_cast<int>(v));
-      for (int i = 0; i < 3; ++i)
-        values[place.offset + Eigen::Index{i} * (place.stride + 1)] += constraints.masses[node];
-      unknowns.segment<3>(3 * static_cast<Eigen::Index>(v)) = -gradient.col(node);
-    }
-    if (!cholesky->factorize()) return std::nullopt;
+    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
+      unknowns.segment<3>(3 * static_cast<Eigen::Index>(v)) = -gradient.col(nodeOfVertex[v]);
     const Eigen::VectorXd right = unknowns;
     cholesky->solve(unknowns);
     const double decrement = right.dot(unknowns);
@@ -235,6 +249,19 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
     if (context.cancelRequested()) return finish(TerminationType::cancelled, "The projection was cancelled.");
     return finish(TerminationType::failed,
                   "A body or a held node cannot get on without breaking a stretch limit or going through the cloth.");
+  }
+  // The candidate may be its own projection.
+  Positions ahead = Positions::Zero(3, x.cols() + own.bodies.cols());
+  ahead.leftCols(x.cols()) = candidate - x;
+  if (std::isfinite(own.elements->centre(candidate, barrier)) &&
+      own.contact->largestStep(own.withBodies(x), ahead) == 1) {
+    own.contact->update(own.withBodies(candidate));
+    if (own.contact->value() == 0) {
+      x = candidate;
+      barrier = 0;
+      report.iterations.push_back({});
+      return finish(TerminationType::converged, "");
+    }
   }
   int iteration = 0;
   while (true) {
