@@ -16,6 +16,11 @@ namespace {
 /// take. The constants are ratios of measured times.
 double workOfFront(double p, double r) { return (p * p / 3 + p * r) * (p + 12) + r * r * (p + 8) + 3e3; }
 
+/// target += source; both lie in different matrices.
+inline void addRun(int length, const double* __restrict source, double* __restrict target) {
+  for (int i = 0; i < length; ++i) target[i] += source[i];
+}
+
 constexpr int tasksWanted = 8;
 constexpr double parallelWork = 5e6;  ///< below which threads cost more than they save
 
@@ -198,9 +203,9 @@ void BlockCholesky::addUpdate(const Front& child, const double* update, const Fr
       const double* source = update + Eigen::Index{columns->source + c} * sourceStride;
       double* target = isPivot ? panels_.data() + parent.panel + Eigen::Index{column} * parent.stride
                                : parentUpdate + Eigen::Index{column - parent.pivots} * parentStride - parent.pivots;
-      for (const Run* rows = columns; rows != end; ++rows)
-        for (int i = rows == columns ? c : 0; i < rows->length; ++i)
-          target[rows->target + i] += source[rows->source + i];
+      addRun(columns->length - c, source + columns->source + c, target + column);
+      for (const Run* rows = columns + 1; rows != end; ++rows)
+        addRun(rows->length, source + rows->source, target + rows->target);
     }
   }
 }

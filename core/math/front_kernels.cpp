@@ -136,20 +136,30 @@ void subtractTransposedFront(int pivots, int rows, const double* lower, int stri
   }
 }
 
+// Three columns at a time, as pivots are multiples of 3.
 void solveFront(int pivots, const double* panel, int stride, const double* inversePivots, double* x) {
-  for (int j = 0; j < pivots; ++j) {
+  for (int j = 0; j < pivots; j += 3) {
     const double* column = panel + static_cast<std::ptrdiff_t>(j) * stride;
-    const double value = x[j] *= inversePivots[j];
-    for (int i = j + 1; i < pivots; ++i) x[i] -= column[i] * value;
+    const double first = x[j] *= inversePivots[j];
+    const double second = x[j + 1] = (x[j + 1] - column[j + 1] * first) * inversePivots[j + 1];
+    const double third = x[j + 2] =
+        (x[j + 2] - column[j + 2] * first - column[stride + j + 2] * second) * inversePivots[j + 2];
+    int i = j + 3;
+    for (; i + lanes <= pivots; i += lanes)
+      storeRegister(x + i, loadRegister(x + i) - loadRegister(column + i) * (Register{} + first) -
+                               loadRegister(column + stride + i) * (Register{} + second) -
+                               loadRegister(column + 2 * stride + i) * (Register{} + third));
+    for (; i < pivots; ++i) x[i] -= column[i] * first + column[stride + i] * second + column[2 * stride + i] * third;
   }
 }
 
 void solveFrontTransposed(int pivots, const double* panel, int stride, const double* inversePivots, double* x) {
-  for (int j = pivots - 1; j >= 0; --j) {
+  for (int j = pivots - 3; j >= 0; j -= 3) {
     const double* column = panel + static_cast<std::ptrdiff_t>(j) * stride;
-    double sum = x[j];
-    for (int i = j + 1; i < pivots; ++i) sum -= column[i] * x[i];
-    x[j] = sum * inversePivots[j];
+    subtractTransposedFront(3, pivots - j - 3, column + j + 3, stride, x + j + 3, x + j);
+    x[j + 2] *= inversePivots[j + 2];
+    x[j + 1] = (x[j + 1] - column[stride + j + 2] * x[j + 2]) * inversePivots[j + 1];
+    x[j] = (x[j] - column[j + 1] * x[j + 1] - column[j + 2] * x[j + 2]) * inversePivots[j];
   }
 }
 

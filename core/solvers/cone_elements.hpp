@@ -34,6 +34,10 @@ class ConeElements {
   /// S near what x leaves, but well inside; Λ = barrier S⁻¹, plus the multipliers there were if `keep`.
   void start(const Positions& x, double barrier, bool keep);
 
+  /// S as x leaves it and Λ = barrier S⁻¹, whose forces are the derivatives of -barrier Σ log det S. Returns Σ log det
+  /// S, or minus infinity (and has set nothing of use) if x does not lie inside of all bounds.
+  double centre(const Positions& x, double barrier);
+
   /// What is known at x with the present slacks and multipliers.
   struct Linearization {
     double complementarity = 0;  ///< Σ ⟨Λ, S⟩

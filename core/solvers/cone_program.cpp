@@ -265,7 +265,8 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
   const double distance = std::max(objectiveAt(x), absoluteGap);
   const double expected = lastObjective > 0 ? std::clamp(lastObjective, 1e-4 * distance, distance) : distance;
   const bool warm = options.warmStart && hasMultipliers;
-  double barrier0 = (warm ? 1 : 10) * expected / std::max<double>(1, 2 * static_cast<double>(constraints.elements.size()));
+  double barrier0 =
+      (warm ? 1 : 10) * expected / std::max<double>(1, 2 * static_cast<double>(constraints.elements.size()));
   elements.start(x, barrier0, warm);
   const Positions x0 = x;
   int restarts = 0;
