@@ -46,9 +46,11 @@ ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions
   sheet_.fixed = heldNodes(*problem_, options_.time);
   potential_.setHeld(sheet_.fixed);
   if (options_.limitMethod != "none" && hasLimits(sheet_)) {
-    const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
-    limiter_ = makeLimiter ? makeLimiter(cones)
-                           : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
+    renewLimiter_ = [makeLimiter, cones = sheetCones(sheet_, ProjectionNorm::mass), method = options_.limitMethod,
+                     projection = options_.projection] {
+      return makeLimiter ? makeLimiter(cones) : makeStrainLimiter(method, cones.constraints, projection);
+    };
+    limiter_ = renewLimiter_();
   }
   const Eigen::Index nodes = problem_->model->nodeCount();
   positions_ = problem_->model->restPositions.reshaped(3, nodes);
@@ -91,6 +93,11 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     for (Eigen::Index node = 0; node < nodes; ++node)
       if (!sheet_.fixed[static_cast<std::size_t>(node)]) moved.col(node) += h * h / masses[3 * node] * forces.col(node);
     auto solution = std::make_shared<solvers::ConeSolution>(limiter_->project(moved, positions_, context));
+    if (solution->report.termination == TerminationType::failed) {
+      // What it remembers of the last projection may have led it astray.
+      limiter_ = renewLimiter_();
+      *solution = limiter_->project(moved, positions_, context);
+    }
     record.step.projections = 1;
     record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
     record.step.projectionSeconds = watch.seconds();

@@ -50,6 +50,7 @@ class ClothDrape {
   DrapeOptions options_;
   IncrementalPotential potential_;
   LimitedSheet sheet_;
+  std::function<std::unique_ptr<StrainLimiter>()> renewLimiter_;
   std::unique_ptr<StrainLimiter> limiter_;
   Eigen::Matrix3Xd positions_, limitForces_;
   double timeStep_;

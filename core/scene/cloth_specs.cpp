@@ -161,18 +161,4 @@ ParameterSpec patternSpec() {
   return optional(spec);
 }
 
-ParameterSpec seamSpec() {
-  const auto side = [](std::string key, std::string description) {
-    return list(std::move(key), std::move(description), integer("", "", "A node.", 0, 1'000'000'000), 1, mostPoints);
-  };
-  const auto geometry = [](std::string key) {
-    return optional(reference(std::move(key), "Whose; may be left out where the scene has one geometry.", "geometry"));
-  };
-  return object("seam", "Sews nodes together in pairs, by springs without rest length.",
-                {name(), geometry("from_geometry"),
-                 side("from", "Indices of nodes, counted from 0 in their geometry, in the order of the seam."),
-                 geometry("to_geometry"), side("to", "As many nodes, in the same order."),
-                 withDefault(positive(number("stiffness", "k", "Of each spring.", dimensions::stiffness)), 100)});
-}
-
 }  // namespace pliant::scene

@@ -18,8 +18,6 @@ base::ParameterSpec pinSpec();
 base::ParameterSpec windSpec();
 /// Of shells and membranes: another rest shape than where the geometry starts.
 base::ParameterSpec patternSpec();
-/// Entries of "seams".
-base::ParameterSpec seamSpec();
 /// The kinds of studies of cloth.
 std::vector<base::ParameterSpec> clothStudySpecs();
 

@@ -251,8 +251,10 @@ class ProjectionStudy final : public ClothStudy {
     const cloth::SheetCones cones = cloth::sheetCones(problem_->sheet, normOf(options_));
     const auto limiter = cloth::makeStrainLimiter(
         options_["limit_method"].get<std::string>(), cones.constraints, projectionOptions(options_));
+    // Where no triangle is stretched, whatever the candidate is like.
+    const Eigen::Matrix3Xd rest = problem_->model->restPositions.reshaped(3, problem_->sheet.nodeCount);
     const base::Stopwatch watch;
-    auto solution = std::make_shared<solvers::ConeSolution>(limiter->project(candidate_, candidate_, context));
+    auto solution = std::make_shared<solvers::ConeSolution>(limiter->project(candidate_, rest, context));
     solution->report.seconds = watch.seconds();
     // Elements are counted among the limited triangles.
     for (int& element : solution->conflictingElements) element = cones.triangles[static_cast<std::size_t>(element)];

@@ -231,7 +231,6 @@ ParameterSpec makeSceneSpec() {
        entries("elements", "Elastic bodies.", elementSpecs()),
        entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
        entries("springs", "Springs.", springs()),
-       entries("seams", "Nodes that are sewn together.", seamSpec()),
        entries("stretch_limits", "How far cloth may stretch.", stretchLimitSpecs()),
        entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
        entries("bodies", "What cloth lies on.", bodySpecs()),
