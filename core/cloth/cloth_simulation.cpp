@@ -81,11 +81,6 @@ Eigen::Matrix3Xd ClothSimulation::bodyPointsAt(const ClothProblem& problem, doub
 
 void ClothSimulation::makeContact() {
   if (problem_->bodies.empty() && !problem_->selfContact) return;
-  if (options_.scheme == SteppingScheme::stepAndReflect || options_.scheme == SteppingScheme::bdf2AndReflect ||
-      options_.scheme == SteppingScheme::secondOrderReflect)
-    throw InputError("",
-                     "cloth that touches bodies or itself cannot be stepped by a scheme that reflects; "
-                     "step_and_project and bdf2_and_project keep contact");
   const int nodes = problem_->model->nodeCount();
   mechanics::ContactGeometry geometry;
   geometry.selfContact = problem_->selfContact;

@@ -22,7 +22,7 @@ constexpr double firstBarrier = 1;  ///< times the objective over the number of 
 /// Newton's method moves on to the next barrier when what is left to gain is this part of what the bounds cost.
 constexpr double centred = 1e-2;
 constexpr double finallyCentred = 1e-12;
-constexpr double smallestSlack = 1e-7;
+constexpr double smallestSlack = 1e-9;
 constexpr double largestInertia = 1e20;
 constexpr int mostNewtonSteps = 60;  ///< for one barrier
 constexpr int mostMoves = 200;       ///< of bodies and held nodes, each as far as nothing is in the way
@@ -266,8 +266,8 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
   int iteration = 0;
   while (true) {
     // Nearer to the limits the next step could not start: the barrier's Hessian would lose all digits.
-    const bool last = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least) ||
-                      own.elements->smallestSlack() < smallestSlack;
+    const bool close = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least);
+    const bool last = close || own.elements->smallestSlack() < smallestSlack;
     const double enough = (last ? finallyCentred : centred) * barrier * bounds;
     double energy = own.value(x, barrier);
     bool reachedEnough = false;
@@ -279,7 +279,7 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
       reachedEnough = *decrement <= enough;
     }
     // Where all bounds are centred, they cost `barrier` each.
-    if (last && reachedEnough) return finish(TerminationType::converged, "");
+    if (close && reachedEnough) return finish(TerminationType::converged, "");
     if (last)
       return finish(TerminationType::iterationLimit,
                     "The projection keeps limits and contact, but it is not as near to the candidate as asked.");

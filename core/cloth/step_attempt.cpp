@@ -38,12 +38,12 @@ bool ClothSimulation::Attempt::advance(StepTerms terms, const Vector& from, doub
   return report.converged() || report.termination == TerminationType::iterationLimit;
 }
 
-bool ClothSimulation::Attempt::project(Vector& candidate) {
+bool ClothSimulation::Attempt::project(Vector& candidate, double fraction) {
   if (!simulation.limiter_ && !simulation.contactProjection_) return true;
   const base::Stopwatch watch;
   const Eigen::Matrix3Xd& start = record.projection ? record.projection->positions : simulation.state_.positions;
   auto solution = std::make_shared<solvers::ConeSolution>(
-      simulation.contactProjection_ ? projectWithContact(asPoints(candidate))
+      simulation.contactProjection_ ? projectWithContact(asPoints(candidate), start, fraction)
                                     : simulation.limiter_->project(asPoints(candidate), start, context));
   ++record.projections;
   record.projectionIterations += static_cast<int>(solution->report.iterations.size());
@@ -58,15 +58,17 @@ bool ClothSimulation::Attempt::project(Vector& candidate) {
   return termination == TerminationType::converged || termination == TerminationType::iterationLimit;
 }
 
-solvers::ConeSolution ClothSimulation::Attempt::projectWithContact(const Eigen::Matrix3Xd& candidate) {
+solvers::ConeSolution ClothSimulation::Attempt::projectWithContact(const Eigen::Matrix3Xd& candidate,
+                                                                   const Eigen::Matrix3Xd& start, double fraction) {
   const ClothProblem& problem = *simulation.problem_;
   solvers::ConeProgramOptions options = simulation.options_.projection.cone;
   options.relativeGap = std::max(options.relativeGap, contactGap);
-  const double time = simulation.state_.time;
+  const double begin = simulation.state_.time, step = simulation.options_.timeStep;
+  const ContactMotion motion{
+      bodyPointsAt(problem, begin + projectedFraction * step), bodyPointsAt(problem, begin + fraction * step)};
+  projectedFraction = fraction;
   return simulation.contactProjection_->project(
-      candidate, simulation.state_.positions,
-      {bodyPointsAt(problem, time), bodyPointsAt(problem, time + simulation.options_.timeStep)},
-      simulation.potential_.terms().rate, options, context);
+      candidate, start, motion, simulation.potential_.terms().rate, options, context);
 }
 
 bool ClothSimulation::stepOnce(Attempt& attempt) {
@@ -78,7 +80,7 @@ bool ClothSimulation::stepOnce(Attempt& attempt) {
                                                 state_.earlierVelocities.reshaped(), h)
                                     : eulerTerms(attempt.x, attempt.v, h);
   Vector x1;
-  if (!attempt.advance(terms, attempt.x, 1, x1) || !attempt.project(x1)) return false;
+  if (!attempt.advance(terms, attempt.x, 1, x1) || !attempt.project(x1, 1)) return false;
   attempt.next.positions = asPoints(x1);
   attempt.next.velocities = asPoints(terms.rate * (x1 - terms.base));
   attempt.next.earlierPositions = state_.positions;
@@ -96,14 +98,14 @@ bool ClothSimulation::stepReflected(Attempt& attempt) {
   Vector candidate;
   if (!attempt.advance(first, attempt.x, 0.5, candidate)) return false;
   Vector middle = candidate;
-  if (!attempt.project(middle)) return false;
+  if (!attempt.project(middle, 0.5)) return false;
   const Vector velocity = first.rate * (middle - first.base);
   const Vector reflected = 2 * middle - candidate;
   const StepTerms second = twoSteps
                                ? bdf2Terms(reflected, velocity, attempt.x + 2 * (middle - candidate), attempt.v, half)
                                : eulerTerms(reflected, velocity, half);
   Vector x1;
-  if (!attempt.advance(second, reflected, 1, x1) || !attempt.project(x1)) return false;
+  if (!attempt.advance(second, reflected, 1, x1) || !attempt.project(x1, 1)) return false;
   attempt.next.positions = asPoints(x1);
   attempt.next.velocities = asPoints(second.rate * (x1 - second.base));
   attempt.next.earlierPositions = asPoints(middle);
@@ -114,12 +116,12 @@ bool ClothSimulation::stepReflected(Attempt& attempt) {
 bool ClothSimulation::stepSecondOrder(Attempt& attempt) {
   const double half = 0.5 * options_.timeStep;
   Vector middle;
-  if (!attempt.advance(eulerTerms(attempt.x, attempt.v, half), attempt.x, 0.5, middle) || !attempt.project(middle))
+  if (!attempt.advance(eulerTerms(attempt.x, attempt.v, half), attempt.x, 0.5, middle) || !attempt.project(middle, 0.5))
     return false;
   const Vector velocity = (middle - attempt.x) / half;
   const Vector reflected = withPins(2 * middle - attempt.x, 1);
   Vector x1 = reflected;
-  if (!attempt.project(x1)) return false;
+  if (!attempt.project(x1, 1)) return false;
   attempt.next.positions = asPoints(x1);
   attempt.next.velocities = asPoints(2 * velocity - attempt.v + (x1 - reflected) / half);
   for (std::size_t node = 0; node < sheet_.fixed.size(); ++node)

@@ -13,14 +13,17 @@ struct ClothSimulation::Attempt {
   /// potential from the better of `x` and the terms' target. False if that fails.
   bool advance(StepTerms terms, const Vector& x, double fraction, Vector& candidate);
   /// Moves `x`, a candidate, to what keeps the limits. False if there is nothing that does.
-  bool project(Vector& x);
-  solvers::ConeSolution projectWithContact(const Eigen::Matrix3Xd& candidate);
+  /// At a fraction of the step after its start.
+  bool project(Vector& x, double fraction);
+  solvers::ConeSolution projectWithContact(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
+                                           double fraction);
 
   ClothSimulation& simulation;
   base::ExecutionContext& context;
   StepRecord record;
   ClothState next;
-  Vector x, v;  ///< at the start
+  Vector x, v;                   ///< at the start
+  double projectedFraction = 0;  ///< of the step, at which the last projection was
 };
 
 }  // namespace pliant::cloth

@@ -86,8 +86,6 @@ std::vector<std::string> ClothResult::warnings() const {
   if (unconverged > 0)
     sentences.push_back(std::to_string(unconverged) + " of " + std::to_string(steps.size()) +
                         " steps were not solved as exactly as asked.");
-  if (problem && (!problem->bodies.empty() || problem->selfContact))
-    sentences.emplace_back("Contact is not computed yet: the cloth passes through bodies and itself.");
   double overshoot = 0;
   if (problem)
     for (const cloth::LimitConstraints& constraints : problem->sheet.constraints)
