@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/base/parameter_spec.hpp"
+#include "core/cloth/stretch_limit.hpp"
+
+namespace pliant::panels {
+
+using base::Json;
+
+/// How a curve is enforced: "constraints" and "count" of an entry of the scene's "stretch_limits".
+enum class ConstraintMethod { automatic, ellipses, directions };
+struct ConstraintChoice {
+  ConstraintMethod method = ConstraintMethod::automatic;
+  int count = 12;
+  friend bool operator==(const ConstraintChoice&, const ConstraintChoice&) = default;
+};
+
+/// The limit of a normalised entry. Throws base::InputError (location empty) if the curve is none.
+cloth::StretchLimit limitOf(const Json& entry);
+ConstraintChoice constraintChoiceOf(const Json& entry);
+
+/// `entry`, as it is written, with another limit; what it says beside the limit (name, element, group, direction)
+/// stays. Angles are written in degrees.
+Json entryWith(const Json& entry, const cloth::StretchLimit& limit, const ConstraintChoice& choice);
+
+/// What enforces the limit. Throws base::InputError (location empty) for a count that is out of range.
+cloth::LimitConstraints constraintsOf(const cloth::StretchLimit& limit, const ConstraintChoice& choice);
+
+}  // namespace pliant::panels
