@@ -1,69 +1,133 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <functional>
+#include <map>
 
-#include "core/cloth/strain_limiter.hpp"
-#include "core/mechanics/contact_barrier.hpp"
-#include "core/mechanics/model.hpp"
+#include "core/cloth/incremental_potential.hpp"
 
 namespace pliant::cloth {
 
-/// A motion through given displacements and turns, linear in between, at rest before the first and after the last.
-struct Keyframe {
-  double time = 0;                                            ///< [s]
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();         ///< about the body's centre: axis times angle [rad]
+/// IE and BDF-2 without limits; SAP, SAR (thesis 3.4, Algorithm 1), their BDF-2 variants BAP and BAR, and a reflection
+/// scheme after Narain, Zehnder & Thomaszewski 2019: see ClothSimulation.
+enum class SteppingScheme {
+  implicitEuler,
+  bdf2,
+  stepAndProject,
+  stepAndReflect,
+  bdf2AndProject,
+  bdf2AndReflect,
+  secondOrderReflect
 };
 
-/// Nodes that are held: where they rest, or on a path; let go at `release` [s].
-struct Pin {
-  std::string name;
-  std::vector<int> nodes;
-  std::vector<Keyframe> path;
-  std::optional<double> release;
+/// Whether a scheme keeps limits.
+bool keepsLimits(SteppingScheme scheme);
+
+struct SteppingOptions {
+  SteppingScheme scheme = SteppingScheme::stepAndReflect;
+  double timeStep = 0.01;            ///< Δt [s]
+  std::string limitMethod = "cone";  ///< of makeStrainLimiter, or "none"
+  ProjectionNorm norm = ProjectionNorm::mass;
+  ProjectionOptions projection;
+  NewtonOptions newton;
 };
 
-/// Something that the cloth lies on.
-struct Body {
-  std::string name;
-  Eigen::Matrix3Xd points;  ///< at rest [m]
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> edges;  ///< of a capsule; with neither triangles nor edges the points are spheres
-  double radius = 0;                      ///< of what is swept along points, edges and triangles [m]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  std::vector<Keyframe> path;
+/// A moving cloth at one instant; 3 x nodes [m], [m/s].
+struct ClothState {
+  double time = 0;
+  Eigen::Matrix3Xd positions;
+  Eigen::Matrix3Xd velocities;
+  /// What BDF-2 needs: the state one (half) step earlier; empty at the start.
+  Eigen::Matrix3Xd earlierPositions;
+  Eigen::Matrix3Xd earlierVelocities;
 };
 
-struct Wind {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  double airDensity = 1.2;                             ///< [kg/m³]
-  double drag = 1;                                     ///< coefficient along the normal
-  double gust = 0;       ///< relative amplitude of a slow sinusoidal change of the velocity
-  double gustPeriod = 1; ///< [s]
+struct StepRecord {
+  double time = 0;  ///< at its end [s]
+  Energies energies;
+  double violation = 0;  ///< largest stretch over limit - 1, at least 0
+  int newtonIterations = 0;
+  double newtonSeconds = 0;
+  int projections = 0;
+  int projectionIterations = 0;
+  double projectionSeconds = 0;
+  std::shared_ptr<const solvers::ConeSolution> projection;       ///< the last one; null if there was none
+  double smallestGap = std::numeric_limits<double>::infinity();  ///< to bodies and itself [m]
+  /// converged; iterationLimit: done, but not as exactly as asked; else the state is still that before the step.
+  base::TerminationType termination = base::TerminationType::converged;
+  std::string message;
 };
 
-/// What does not change while it moves.
-struct ClothProblem {
-  std::shared_ptr<const mechanics::Model> model;  ///< 3-dimensional, without scalar coordinates, drives or rods
-  LimitedSheet sheet;
-  std::vector<Pin> pins;
-  std::vector<Body> bodies;
-  std::optional<Wind> wind;
-  double contactDistance = 1e-3;  ///< gap below which contact begins to push [m]
-  bool selfContact = false;
-};
+using LimiterFactory = std::function<std::unique_ptr<StrainLimiter>(const SheetCones&)>;
 
-/// IE and BDF-2 without limits; SAP, SAR (thesis 3.4, Algorithm 1), their BDF-2 variants BAP and BAR, and the
-/// second-order reflection of Narain, Zehnder & Thomaszewski 2019.
-enum class SteppingScheme { implicitEuler, bdf2, stepAndProject, stepAndReflect, bdf2AndProject, bdf2AndReflect,
-                            secondOrderReflect };
+/// Steps a cloth through time. With P the projection onto the limits, I_k(x, v) the candidate of an implicit Euler step
+/// over k, and h = Δt:
+///  - implicitEuler: x₁ = I_h(x₀, v₀), v₁ = (x₁ - x₀)/h. bdf2: the same with BDF-2 after a first step by Euler.
+///  - stepAndProject: x₁ = P(I_h(x₀, v₀)), v₁ = (x₁ - x₀)/h.
+///  - stepAndReflect (thesis 3.4, Algorithm 1): x̃ = I_{h/2}(x₀, v₀), x = P(x̃), v = (x - x₀)/(h/2), x̂ = 2x - x̃,
+///    x₁ = P(I_{h/2}(x̂, v)), v₁ = (x₁ - x̂)/(h/2). The last velocity uses the reflected position; the published
+///    listing's other reading gains or loses the reflection as velocity.
+///  - bdf2AndProject: BDF-2 in place of Euler, with v₁ = (3x₁ - 4x₀ + x₋₁)/(2h) (English & Bridson 2008). Of second
+///    order for smooth motion along the limits.
+///  - bdf2AndReflect: BDF-2 over both half steps. A reflection by 2(x - x̃) moves all positions from which the second
+///    half step differentiates, or else its velocities would be off by the reflection over h, to first order.
+///  - secondOrderReflect: x̃ = I_{h/2}(x₀, v₀), x = P(x̃), v = (x - x₀)/(h/2): elastic and limit forces as an implicit
+///    midpoint rule has them. Reflection about this midpoint, x̂ = 2x - x₀, v̂ = 2v - v₀, applies the same forces once
+///    more, and x₁ = P(x̂), v₁ = v̂ + (x₁ - x̂)/(h/2). That reflection and implicit midpoint are one is what Narain,
+///    Zehnder & Thomaszewski (2019) found for fluids, whose constraints are linear: there, and for cloth while no limit
+///    is active, the scheme is of second order and keeps energy. Stretch limits are curved; along them it is of first
+///    order, with an eighth of step-and-project's error for a pendulum at the end of its tether.
+/// Wind and damping: see WindDrag and StepTerms.
+class ClothSimulation {
+ public:
+  /// Starts at rest in the model's rest positions, pins where their paths are at time 0. `makeLimiter` stands in for
+  /// makeStrainLimiter where given. Throws base::InputError (location empty) for a problem that checkClothProblem
+  /// refuses, an unknown method, a time step or tolerance that is not above 0, or a scheme that needs limits' method
+  /// "none" or not.
+  ClothSimulation(std::shared_ptr<const ClothProblem> problem, SteppingOptions options,
+                  LimiterFactory makeLimiter = {});
+  ~ClothSimulation();
+  ClothSimulation(ClothSimulation&&) noexcept;
 
-struct Energies {
-  double kinetic = 0, membrane = 0, bending = 0, gravity = 0;  ///< [J]; gravity is 0 at the rest shape
-  double total() const { return kinetic + membrane + bending + gravity; }
+  const ClothProblem& problem() const { return *problem_; }
+  const SteppingOptions& options() const { return options_; }
+  const ClothState& state() const { return state_; }
+  /// Another start; forgets what BDF-2 knows. Throws base::InputError for wrong sizes or numbers that are not finite.
+  void setState(double time, const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& velocities);
+
+  /// One step of Δt.
+  StepRecord step(base::ExecutionContext& context);
+
+  /// From the next step on `node` is held, and reaches `position` [m] at the step's end; for dragging by hand. Stands
+  /// before what a pin says of the node.
+  void setPinTarget(int node, const Eigen::Vector3d& position);
+  /// Undoes setPinTarget.
+  void releasePinTarget(int node);
+
+  Energies energies() const { return energiesAt(*problem_, state_.positions, state_.velocities); }
+  /// Of the bodies' points at the state's time, one body after the other [m].
+  Eigen::Matrix3Xd bodyPoints() const { return bodyPointsAt(*problem_, state_.time); }
+  static Eigen::Matrix3Xd bodyPointsAt(const ClothProblem& problem, double time);
+
+ private:
+  struct Attempt;
+  void updateHeld();
+  /// All positions with held nodes where they are a fraction of the step after its start.
+  Vector withPins(Vector positions, double fraction) const;
+  StepTerms eulerTerms(const Vector& x, const Vector& v, double duration) const;
+  StepTerms bdf2Terms(const Vector& x, const Vector& v, const Vector& earlierX, const Vector& earlierV,
+                      double duration) const;
+  bool stepOnce(Attempt& attempt);
+  bool stepReflected(Attempt& attempt);
+  bool stepSecondOrder(Attempt& attempt);
+
+  std::shared_ptr<const ClothProblem> problem_;
+  SteppingOptions options_;
+  LimiterFactory makeLimiter_;
+  IncrementalPotential potential_;
+  LimitedSheet sheet_;  ///< with `fixed` as pins are now
+  std::unique_ptr<StrainLimiter> limiter_;
+  ClothState state_;
+  std::map<int, Eigen::Vector3d> targets_;
 };
 
 }  // namespace pliant::cloth

@@ -17,9 +17,7 @@ constexpr int fineSamples = 1440;  ///< directions at which curves are compared
 struct Sinusoid {
   double mean = 0, cosine = 0, sine = 0;
   double at(double doubled) const { return mean + cosine * std::cos(doubled) + sine * std::sin(doubled); }
-  Eigen::Matrix2d matrix() const {
-    return Eigen::Matrix2d{{mean + cosine, sine}, {sine, mean - cosine}};
-  }
+  Eigen::Matrix2d matrix() const { return Eigen::Matrix2d{{mean + cosine, sine}, {sine, mean - cosine}}; }
 };
 
 void requireCount(int count, int least) {
@@ -60,8 +58,7 @@ double worstOvershoot(const std::vector<DirectionLimit>& directions, const std::
       pair << std::cos(directions[i].angle), std::sin(directions[i].angle), std::cos(directions[j].angle),
           std::sin(directions[j].angle);
       for (const double sign : {1.0, -1.0}) {
-        const Eigen::Vector2d v =
-            pair.inverse() * Eigen::Vector2d(directions[i].stretch, sign * directions[j].stretch);
+        const Eigen::Vector2d v = pair.inverse() * Eigen::Vector2d(directions[i].stretch, sign * directions[j].stretch);
         consider({v.squaredNorm() / 2, (v[0] * v[0] - v[1] * v[1]) / 2, v[0] * v[1]});
       }
       for (int k = j + 1; k < count; ++k) {

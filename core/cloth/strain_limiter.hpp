@@ -34,7 +34,8 @@ std::array<Eigen::Vector2d, 3> shapeGradients(const Eigen::Matrix3d& corners, co
 /// F (3 x 2) of a triangle.
 Eigen::Matrix<double, 3, 2> deformationGradient(const SheetTriangle& triangle, const Eigen::Matrix3Xd& positions);
 
-/// The largest stretch over its limit, over all directions, per triangle (0 where there is no limit): 1 is at the limit.
+/// The largest stretch over its limit, over all directions, per triangle (0 where there is no limit): 1 is at the
+/// limit.
 Eigen::VectorXd stretchRatios(const LimitedSheet& sheet, const Eigen::Matrix3Xd& positions);
 
 /// The largest stretch in the directions α = π i / count over the chosen triangles (all if empty), size count.

@@ -39,9 +39,7 @@ LimitCurve::LimitCurve(std::vector<DirectionLimit> points) : points_(std::move(p
     if (width(i) < 1e-9)
       throw base::InputError("", "Two points of the limit curve have the same direction, " +
                                      std::to_string(points_[i].angle * 180 / pi) + " degrees.");
-  const auto secant = [&](std::size_t i) {
-    return (points_[(i + 1) % count].stretch - points_[i].stretch) / width(i);
-  };
+  const auto secant = [&](std::size_t i) { return (points_[(i + 1) % count].stretch - points_[i].stretch) / width(i); };
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count;
     const double left = secant(before), right = secant(i);
@@ -56,8 +54,8 @@ LimitCurve::LimitCurve(std::vector<DirectionLimit> points) : points_(std::move(p
 
 double LimitCurve::operator()(double angle) const {
   const double at = halfTurn(angle);
-  const auto above = std::upper_bound(
-      points_.begin(), points_.end(), at, [](double value, const DirectionLimit& point) { return value < point.angle; });
+  const auto above = std::upper_bound(points_.begin(), points_.end(), at,
+                                      [](double value, const DirectionLimit& point) { return value < point.angle; });
   const std::size_t count = points_.size();
   const auto index = static_cast<std::size_t>(above - points_.begin());
   const std::size_t first = (index + count - 1) % count, second = index % count;

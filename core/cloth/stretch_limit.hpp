@@ -8,7 +8,7 @@ namespace pliant::cloth {
 
 /// How far the material may stretch in one direction of the rest shape.
 struct DirectionLimit {
-  double angle = 0;    ///< α [rad], from the material's first direction towards its second; α and α + π are the same
+  double angle = 0;  ///< α [rad], from the material's first direction towards its second; α and α + π are the same
   double stretch = 1;  ///< b(α): the largest length over rest length
 };
 

@@ -4,6 +4,20 @@
 
 namespace pliant::math {
 
+namespace {
+
+void listNeighbors(std::vector<std::vector<int>>& adjacency, BlockPattern& pattern) {
+  pattern.starts.push_back(0);
+  for (auto& list : adjacency) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    pattern.neighbors.insert(pattern.neighbors.end(), list.begin(), list.end());
+    pattern.starts.push_back(static_cast<int>(pattern.neighbors.size()));
+  }
+}
+
+}  // namespace
+
 BlockPattern::BlockPattern(const Eigen::SparseMatrix<double>& matrix) : vertexOfColumn(matrix.cols()) {
   const int size = static_cast<int>(matrix.cols());
   const int* columnStarts = matrix.outerIndexPtr();
@@ -27,13 +41,19 @@ BlockPattern::BlockPattern(const Eigen::SparseMatrix<double>& matrix) : vertexOf
       adjacency[v].push_back(u);
     }
   }
-  starts.push_back(0);
-  for (auto& list : adjacency) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    neighbors.insert(neighbors.end(), list.begin(), list.end());
-    starts.push_back(static_cast<int>(neighbors.size()));
+  listNeighbors(adjacency, *this);
+}
+
+BlockPattern::BlockPattern(int vertices, int width, const std::vector<std::array<int, 2>>& pairs) {
+  std::vector<std::vector<int>> adjacency(vertices);
+  for (const auto& [a, b] : pairs) {
+    if (a == b) continue;
+    adjacency[a].push_back(b);
+    adjacency[b].push_back(a);
   }
+  for (int v = 0; v <= vertices; ++v) firstColumn.push_back(v * width);
+  for (int v = 0; v < vertices; ++v) vertexOfColumn.insert(vertexOfColumn.end(), width, v);
+  listNeighbors(adjacency, *this);
 }
 
 }  // namespace pliant::math

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 namespace pliant::math {
@@ -15,6 +16,8 @@ struct BlockPattern {
   std::vector<int> neighbors;       ///< in the graph of A + Aᵀ, ascending, without the vertex itself
 
   explicit BlockPattern(const Eigen::SparseMatrix<double>& matrix);
+  /// `vertices` of `width` columns each, coupled as `pairs` say (in any order, repeated or not).
+  BlockPattern(int vertices, int width, const std::vector<std::array<int, 2>>& pairs);
 
   int vertexCount() const { return static_cast<int>(firstColumn.size()) - 1; }
   int width(int vertex) const { return firstColumn[vertex + 1] - firstColumn[vertex]; }

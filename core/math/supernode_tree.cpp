@@ -8,13 +8,6 @@ namespace pliant::math {
 
 namespace {
 
-/// Floating-point operations that eliminating p pivots coupled to r rows takes, as many as take the same time in large
-/// matrix products: LAPACK's LU and triangular solves are slower in small blocks, so are products with few pivots, and
-/// every result of a product is scattered once. The constants are ratios of measured times.
-double estimateWork(double p, double r) {
-  return (2.0 / 3 * p * p + 2 * p * r) * (p + 100) + 2 * r * r * (p + 30) + 3e5;
-}
-
 double countFlops(double p, double r) { return 2.0 / 3 * p * p * p + 2 * p * p * r + 2 * p * r * r; }
 
 /// Parent of every vertex in the elimination tree, -1 at a root (Liu 1990). Vertices are numbered by elimination.
@@ -57,7 +50,7 @@ struct Group {
 };
 
 /// Merges children into `group` as long as the estimated work falls, the best first.
-void mergeChildren(std::vector<Group>& groups, Group& group) {
+void mergeChildren(std::vector<Group>& groups, Group& group, SupernodeTree::WorkEstimate estimateWork) {
   while (true) {
     double bestGain = 0;
     std::size_t best = 0;
@@ -81,7 +74,13 @@ void mergeChildren(std::vector<Group>& groups, Group& group) {
 
 }  // namespace
 
-SupernodeTree::SupernodeTree(const BlockPattern& pattern, const std::vector<int>& order) {
+// LAPACK's LU and triangular solves are slower in small blocks, so are products with few pivots, and every result of a
+// product is scattered once. The constants are ratios of measured times.
+double SupernodeTree::workOfLu(double p, double r) {
+  return (2.0 / 3 * p * p + 2 * p * r) * (p + 100) + 2 * r * r * (p + 30) + 3e5;
+}
+
+SupernodeTree::SupernodeTree(const BlockPattern& pattern, const std::vector<int>& order, WorkEstimate estimateWork) {
   const int count = pattern.vertexCount();
   std::vector<int> place(count);
   for (int i = 0; i < count; ++i) place[order[i]] = i;
@@ -105,7 +104,7 @@ SupernodeTree::SupernodeTree(const BlockPattern& pattern, const std::vector<int>
     group.p = pattern.width(order[i]);
     for (const int j : structure[i]) group.r += pattern.width(order[j]);
     group.work = estimateWork(group.p, group.r);
-    mergeChildren(groups, group);
+    mergeChildren(groups, group, estimateWork);
     if (parent[i] < 0) {
       roots.push_back(i);
     } else {

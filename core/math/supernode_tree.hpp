@@ -62,9 +62,21 @@ struct SupernodeTree {
     int size() const { return pivots + rows; }
   };
 
-  SupernodeTree(const BlockPattern& pattern, const std::vector<int>& order);
-  /// The rest of the analysis, for the tree that is chosen.
+  /// Floating-point operations that eliminating p pivots coupled to r rows takes, as many as take the same time in
+  /// large matrix products.
+  using WorkEstimate = double (*)(double p, double r);
+  /// Of SupernodalFactorization.
+  static double workOfLu(double p, double r);
+
+  SupernodeTree(const BlockPattern& pattern, const std::vector<int>& order, WorkEstimate estimateWork = workOfLu);
+  /// The rest of the analysis of LU factors, for the tree that is chosen; the three members below are no longer valid.
   void layOut(const BlockPattern& pattern, const Eigen::SparseMatrix<double>& matrix);
+
+  /// Vertices in the order of elimination; where those of a supernode begin, and the end; and places, in that order, of
+  /// the vertices of its rows, ascending.
+  const std::vector<int>& vertices() const { return vertices_; }
+  const std::vector<int>& vertexBegin() const { return vertexBegin_; }
+  const std::vector<int>& rowPlaces(int supernode) const { return rows_[supernode]; }
 
   std::vector<Supernode> supernodes;  ///< children before parents
   std::vector<int> childCount;

@@ -49,12 +49,12 @@ struct ConeSolution {
   /// objective is balanced by -Σ (F Λ) wᵀ and -Σ λ f w.
   Eigen::Matrix3Xd matrixMultipliers;
   Eigen::VectorXd vectorMultipliers;
-  double objective = 0;       ///< P = ½ ‖x - x̂‖²_M [kg m²]
-  double bound = 0;           ///< D: no x that keeps the limits is nearer; ‖x - x*‖_M <= sqrt(2 (P - D))
-  double violation = 0;       ///< largest stretch - 1 over all cones, 0 if none is above
-  double dualResidual = 0;    ///< ‖M(x - x̂) + Bᵀ(FΛ)‖ / ‖M(x - x̂)‖, in the maximum norm
-  double complementarity = 0; ///< Σ ⟨Λ, S⟩ / P
-  base::SolverReport report;  ///< residual: relative gap; correction: violation
+  double objective = 0;        ///< P = ½ ‖x - x̂‖²_M [kg m²]
+  double bound = 0;            ///< D: no x that keeps the limits is nearer; ‖x - x*‖_M <= sqrt(2 (P - D))
+  double violation = 0;        ///< largest stretch - 1 over all cones, 0 if none is above
+  double dualResidual = 0;     ///< ‖M(x - x̂) + Bᵀ(FΛ)‖ / ‖M(x - x̂)‖, in the maximum norm
+  double complementarity = 0;  ///< Σ ⟨Λ, S⟩ / P
+  base::SolverReport report;   ///< residual: relative gap; correction: violation
   /// If infeasible: the cones (matrix cones first, then vector cones) and fixed nodes that contradict each other,
   /// those with the largest share of the proof first.
   std::vector<int> conflictingCones;

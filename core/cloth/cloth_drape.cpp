@@ -1,0 +1,116 @@
+#include "core/cloth/cloth_drape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+
+namespace pliant::cloth {
+
+using base::TerminationType;
+
+namespace {
+
+/// How far apart the two parts of the unbalanced force may be, and by how much the step then changes.
+constexpr double largestImbalance = 3;
+constexpr double stepChange = 1.3;
+constexpr double shortestStep = 1e-5, longestStep = 1e4;
+
+/// Norm over the nodes that are not held.
+double freeNorm(const Eigen::Matrix3Xd& forces, const std::vector<char>& held) {
+  double sum = 0;
+  for (Eigen::Index node = 0; node < forces.cols(); ++node)
+    if (!held[static_cast<std::size_t>(node)]) sum += forces.col(node).squaredNorm();
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions options, LimiterFactory makeLimiter)
+    : problem_((checkClothProblem(*problem), std::move(problem))),
+      options_(std::move(options)),
+      potential_(problem_),
+      sheet_(problem_->sheet),
+      timeStep_(options_.timeStep) {
+  for (const double value : {options_.tolerance, options_.timeStep})
+    if (!(std::isfinite(value) && value > 0))
+      throw base::InputError("", "the tolerance and the time step of a drape must be numbers above 0");
+  sheet_.fixed = heldNodes(*problem_, options_.time);
+  potential_.setHeld(sheet_.fixed);
+  if (options_.limitMethod != "none" && hasLimits(sheet_)) {
+    const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
+    limiter_ = makeLimiter ? makeLimiter(cones) : makeStrainLimiter(options_.limitMethod, cones, options_.projection);
+  }
+  const Eigen::Index nodes = problem_->model->nodeCount();
+  positions_ = problem_->model->restPositions.reshaped(3, nodes);
+  placePins(*problem_, options_.time, positions_);
+  limitForces_.setZero(3, nodes);
+}
+
+DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
+  const double h = timeStep_;
+  const Vector& masses = potential_.masses();
+  const Eigen::Index nodes = positions_.cols();
+  DrapeRecord record;
+  record.timeStep = h;
+  const auto take = [&](const base::SolverReport& report) {
+    if (!report.converged()) {
+      record.step.termination = report.termination;
+      record.step.message = report.message;
+    }
+    return report.converged() || report.termination == TerminationType::iterationLimit;
+  };
+
+  StepTerms terms;
+  terms.rate = 1 / h;
+  terms.base = terms.target = positions_.reshaped();
+  if (problem_->model->stiffnessDamping != 0) terms.history = potential_.elasticForce(terms.base);
+  potential_.setTerms(std::move(terms));
+  potential_.setExtraForce(-limitForces_.reshaped());
+  potential_.beginWind(positions_, options_.time);
+  Vector candidate = positions_.reshaped();
+  const base::SolverReport newton = potential_.minimize(candidate, options_.newton, context);
+  record.step.newtonIterations = static_cast<int>(newton.iterations.size()) - 1;
+  record.step.newtonSeconds = newton.seconds;
+  bool done = take(newton);
+
+  const Eigen::Matrix3Xd unlimited = candidate.reshaped(3, nodes);
+  Eigen::Matrix3Xd next = unlimited, forces = limitForces_;
+  if (done && limiter_) {
+    const base::Stopwatch watch;
+    Eigen::Matrix3Xd moved = unlimited;
+    for (Eigen::Index node = 0; node < nodes; ++node)
+      if (!sheet_.fixed[static_cast<std::size_t>(node)]) moved.col(node) += h * h / masses[3 * node] * forces.col(node);
+    auto solution = std::make_shared<solvers::ConeSolution>(limiter_->project(moved, positions_, context));
+    record.step.projections = 1;
+    record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
+    record.step.projectionSeconds = watch.seconds();
+    done = take(solution->report);
+    next = solution->positions;
+    for (Eigen::Index node = 0; node < nodes; ++node)
+      forces.col(node) = sheet_.fixed[static_cast<std::size_t>(node)]
+                             ? Eigen::Vector3d::Zero()
+                             : Eigen::Vector3d(masses[3 * node] / (h * h) * (moved.col(node) - next.col(node)));
+    record.step.projection = std::move(solution);
+  }
+  if (done) {
+    const Vector elastic = potential_.elasticForce(next.reshaped());
+    const Vector external = potential_.externalForce() + potential_.windForce();
+    const Vector unbalanced = elastic - external + Vector(forces.reshaped());
+    const Vector splitting = elastic - potential_.elasticForce(candidate);
+    const Vector motion = masses.cwiseProduct((next - positions_).reshaped()) / (h * h);
+    const auto norm = [&](const Vector& force) { return freeNorm(force.reshaped(3, nodes), sheet_.fixed); };
+    residual_ = norm(unbalanced) / std::max(norm(external), std::numeric_limits<double>::min());
+    if (norm(splitting) > largestImbalance * norm(motion)) timeStep_ = std::max(shortestStep, h / stepChange);
+    if (norm(motion) > largestImbalance * norm(splitting)) timeStep_ = std::min(longestStep, h * stepChange);
+    positions_ = next;
+    limitForces_ = forces;
+  }
+  record.residual = residual_;
+  record.step.energies = energiesAt(*problem_, positions_, Eigen::Matrix3Xd::Zero(3, nodes));
+  if (!sheet_.limits.empty()) record.step.violation = std::max(0.0, stretchRatios(sheet_, positions_).maxCoeff() - 1);
+  return record;
+}
+
+}  // namespace pliant::cloth
