@@ -14,4 +14,13 @@ double envelopeStretch(const LimitConstraints& constraints, double angle) {
   return std::sqrt(smallest);
 }
 
+double largestStretch(const StretchLimit& limit) {
+  if (const auto* isotropic = std::get_if<IsotropicLimit>(&limit)) return isotropic->stretch;
+  if (const auto* orthotropic = std::get_if<OrthotropicLimit>(&limit))
+    return std::max(orthotropic->first, orthotropic->second);
+  double largest = 0;  // the cubics have no extrema between the points
+  for (const DirectionLimit& point : std::get<LimitCurve>(limit).points()) largest = std::max(largest, point.stretch);
+  return largest;
+}
+
 }  // namespace pliant::cloth

@@ -8,4 +8,7 @@ namespace pliant::cloth {
 /// where there is none.
 double envelopeStretch(const LimitConstraints& constraints, double angle);
 
+/// The largest b over all directions.
+double largestStretch(const StretchLimit& limit);
+
 }  // namespace pliant::cloth

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "ui/render/motion_view.hpp"
 #include "ui/render/primitives.hpp"
+#include "ui/render/view.hpp"
 
 namespace pliant::render {
 
