@@ -42,12 +42,12 @@ Eigen::VectorXd stretchRatios(const LimitedSheet& sheet, const Eigen::Matrix3Xd&
 Eigen::VectorXd reachedStretch(const LimitedSheet& sheet, const Eigen::Matrix3Xd& positions, int count,
                                const std::vector<int>& triangles = {});
 
-/// Cones of a sheet, and which triangle each belongs to (matrix cones first).
+/// The limits of a sheet as a cone program's constraints: an element for each limited triangle, in their order.
+enum class ProjectionNorm { mass, identity };
 struct SheetCones {
   solvers::ConeConstraints constraints;
-  std::vector<int> triangles;
+  std::vector<int> triangles;  ///< of each element
 };
-enum class ProjectionNorm { mass, identity };
 SheetCones sheetCones(const LimitedSheet& sheet, ProjectionNorm norm);
 
 struct ProjectionOptions {
@@ -68,7 +68,7 @@ class StrainLimiter {
 
 /// "cone" (the global optimum: solvers::ConeProgram), "gauss_seidel" (triangle after triangle, thesis 3.5.1 after
 /// Thomaszewski et al. 2009), "nonlinear_program" (Ipopt). Throws base::InputError for another name.
-std::unique_ptr<StrainLimiter> makeStrainLimiter(std::string_view method, const SheetCones& cones,
+std::unique_ptr<StrainLimiter> makeStrainLimiter(std::string_view method, const solvers::ConeConstraints& constraints,
                                                  const ProjectionOptions& options);
 
 }  // namespace pliant::cloth

@@ -10,24 +10,25 @@
 
 namespace pliant::solvers {
 
-/// A bound on a linear map of three nodes' positions: F = Σ x_k w_kᵀ (3 x 2) with FᵀF ⪯ I, so that no direction is
-/// stretched beyond 1 in the metric that the weights contain.
-struct MatrixCone {
+/// Bounds on the metric C = FᵀF (2 x 2) of a linear map F (3 x 2): any number of both kinds.
+struct MetricBounds {
+  std::vector<Eigen::Matrix2d> ellipses;  ///< C ⪯ S, S symmetric positive definite
+  /// dᵀCd <= b² for a unit vector d, as d / b.
+  std::vector<Eigen::Vector2d> directions;
+};
+
+/// Three nodes whose positions give F = Σ x_k w_kᵀ.
+struct ConeElement {
   std::array<int, 3> nodes;
   std::array<Eigen::Vector2d, 3> weights;  ///< w_k [1/m]
+  int bounds = 0;                          ///< index into ConeConstraints::bounds
 };
 
-/// A bound on one vector: ‖Σ w_k x_k‖ <= 1.
-struct VectorCone {
-  std::array<int, 3> nodes;
-  std::array<double, 3> weights;  ///< w_k [1/m]
-};
-
-/// min ½ Σ m_i ‖x_i - x̂_i‖² over the positions x of the nodes that are not fixed, subject to cones.
+/// min ½ Σ m_i ‖x_i - x̂_i‖² over the positions x of the nodes that are not fixed, subject to the bounds.
 struct ConeConstraints {
   int nodeCount = 0;
-  std::vector<MatrixCone> matrixCones;
-  std::vector<VectorCone> vectorCones;
+  std::vector<ConeElement> elements;
+  std::vector<MetricBounds> bounds;
   Eigen::VectorXd masses;   ///< weights of the norm, above 0, one a node [kg]
   std::vector<char> fixed;  ///< per node
 };
@@ -45,19 +46,22 @@ struct ConeProgramOptions {
 /// The optimum with what proves it.
 struct ConeSolution {
   Eigen::Matrix3Xd positions;  ///< x; fixed nodes as the candidate has them [m]
-  /// Multipliers per matrix cone, symmetric 2 x 2 as (00, 11, 01), and per vector cone [J s²]: the gradient of the
-  /// objective is balanced by -Σ (F Λ) wᵀ and -Σ λ f w.
-  Eigen::Matrix3Xd matrixMultipliers;
-  Eigen::VectorXd vectorMultipliers;
+  /// Per element the symmetric 2 x 2 multiplier Λ of C as (00, 11, 01), the sum over its bounds; 3 x elements
+  /// [kg m²]. At the optimum M(x - x̂) = -Σ (F Λ) w.
+  Eigen::Matrix3Xd multipliers;
+  /// Of each bound, in the order of the elements: of ellipses T⁻¹ΛT⁻¹ with T = S^{-½}, as (00, 11, 01), and of
+  /// directions. Empty if the method has none.
+  Eigen::Matrix3Xd ellipseMultipliers;
+  Eigen::VectorXd directionMultipliers;
   double objective = 0;        ///< P = ½ ‖x - x̂‖²_M [kg m²]
   double bound = 0;            ///< D: no x that keeps the limits is nearer; ‖x - x*‖_M <= sqrt(2 (P - D))
-  double violation = 0;        ///< largest stretch - 1 over all cones, 0 if none is above
+  double violation = 0;        ///< largest stretch - 1 over all bounds, 0 if none is above
   double dualResidual = 0;     ///< ‖M(x - x̂) + Bᵀ(FΛ)‖ / ‖M(x - x̂)‖, in the maximum norm
   double complementarity = 0;  ///< Σ ⟨Λ, S⟩ / P
   base::SolverReport report;   ///< residual: relative gap; correction: violation
-  /// If infeasible: the cones (matrix cones first, then vector cones) and fixed nodes that contradict each other,
-  /// those with the largest share of the proof first.
-  std::vector<int> conflictingCones;
+  /// If infeasible: the elements and fixed nodes that contradict each other, those with the largest share of the proof
+  /// first.
+  std::vector<int> conflictingElements;
   std::vector<int> conflictingNodes;
 
   double gap() const { return objective - bound; }
@@ -65,11 +69,12 @@ struct ConeSolution {
 };
 
 /// Projects positions onto stretch limits: the global optimum of a convex program (thesis 3.2), by a primal-dual
-/// interior-point method with one 2 x 2 multiplier a matrix cone, whose Newton system is condensed onto the positions.
+/// interior-point method with one 2 x 2 multiplier an ellipse, whose Newton system is condensed onto the positions.
 /// The symbolic factorisation and the last multipliers are kept between solves.
 class ConeProgram {
  public:
-  /// Throws base::InputError (location empty) for a mass that is not above 0 or a node out of range.
+  /// Throws base::InputError (location empty) for a mass that is not above 0, a node out of range, or a bound that is
+  /// not positive definite.
   explicit ConeProgram(ConeConstraints constraints);
   ~ConeProgram();
   ConeProgram(ConeProgram&&) noexcept;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/geometry/triangle_intersection.hpp"
+
+/// What findIntersections finds, without a hierarchy and by another formula: for each side and triangle without a
+/// common node, the signs of volumes in extended precision. Triangles must not be degenerate, and coplanar pairs count
+/// as apart.
+inline int countIntersectionsByBruteForce(const Eigen::Matrix3Xd& points,
+                                          const std::vector<std::array<int, 3>>& triangles) {
+  using Point = std::array<long double, 3>;
+  const auto difference = [&](int from, int to) {
+    Point result;
+    for (int i = 0; i < 3; ++i) result[i] = static_cast<long double>(points(i, to)) - points(i, from);
+    return result;
+  };
+  const auto cross = [](const Point& a, const Point& b) {
+    return Point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto dot = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  std::vector<std::array<int, 2>> edges;
+  for (const auto& t : triangles)
+    for (int i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  int count = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const Point normal = cross(difference(a, b), difference(a, c));
+    for (const auto& [p, q] : edges) {
+      const long double from = dot(normal, difference(a, p)), to = dot(normal, difference(a, q));
+      if ((from > 0 && to > 0) || (from < 0 && to < 0) || (from == 0 && to == 0)) continue;
+      if (a == p || b == p || c == p || a == q || b == q || c == q) continue;
+      const Point segment = difference(p, q), pa = difference(p, a), pb = difference(p, b), pc = difference(p, c);
+      const long double x = dot(segment, cross(pa, pb)), y = dot(segment, cross(pb, pc)),
+                        z = dot(segment, cross(pc, pa));
+      if ((x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0)) ++count;
+    }
+  }
+  return count;
+}
