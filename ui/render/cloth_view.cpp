@@ -88,7 +88,7 @@ struct ClothView::Parts {
     figure.setTheme(colors, stale);
     setColor(sheet.actor(), shown(colors.rest));
     bodies.setColor(shown(colors.spring));
-    setColor(directions.actor(), colors.edge);
+    setColor(directions.actor(), {0.95, 0.95, 0.95});  // on viridis, in every theme
     setColor(pins.actor(), shown(colors.driven));
     selectionRing.setColors(colors.text, colors.background);
     stage.setNotice(stale && shownFrame() ? "inputs have changed since this was solved" : "", colors.text);

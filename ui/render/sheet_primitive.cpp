@@ -24,8 +24,8 @@ SheetPrimitive::SheetPrimitive() {
   actor_->SetMapper(mapper_);
   vtkProperty* property = actor_->GetProperty();
   property->SetInterpolationToPhong();
-  property->SetAmbient(0.35);
-  property->SetDiffuse(0.7);
+  property->SetAmbient(0.55);
+  property->SetDiffuse(0.5);
 }
 
 void SheetPrimitive::setTopology(const std::vector<std::array<int, 3>>& triangles) {
