@@ -24,7 +24,7 @@ enum class ValueKind {
   list,       ///< `items[i]` describes entry i, the last item all further entries
   object,     ///< `fields` describe the keys
   variant,    ///< an object whose key "type" chooses one of `items` (each an object whose `key` is the type's name);
-              ///< "type" may be left out where there is one item
+              ///< "type" may be left out where there is one item, or for `defaultItem`
 };
 
 /// One key of a scene, declared once: the file format, its JSON Schema, the property panel, tooltips, the command line
@@ -46,8 +46,16 @@ struct ParameterSpec {
   std::vector<std::string> choices;
   std::string target;                   ///< reference: key of the list whose entries are named
   std::vector<std::string> exactlyOne;  ///< object: of these keys exactly one must be there
+  std::string defaultItem;              ///< variant: key of the item that is meant where "type" is left out
   std::vector<ParameterSpec> fields;
   std::vector<ParameterSpec> items;
+
+  /// Variant: the item that is meant where "type" is left out, or null.
+  const ParameterSpec* itemWithoutType() const {
+    for (const ParameterSpec& item : items)
+      if (items.size() == 1 || item.key == defaultItem) return &item;
+    return nullptr;
+  }
 
   bool required() const { return defaultValue.is_null() && !optional; }
 };

@@ -40,7 +40,8 @@ ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions
   potential_.setHeld(sheet_.fixed);
   if (options_.limitMethod != "none" && hasLimits(sheet_)) {
     const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
-    limiter_ = makeLimiter ? makeLimiter(cones) : makeStrainLimiter(options_.limitMethod, cones, options_.projection);
+    limiter_ = makeLimiter ? makeLimiter(cones)
+                           : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
   }
   const Eigen::Index nodes = problem_->model->nodeCount();
   positions_ = problem_->model->restPositions.reshaped(3, nodes);

@@ -20,8 +20,8 @@ struct DrapeRecord {
   StepRecord step;      ///< its time is 0
 };
 
-/// The static equilibrium of a cloth with limits: positions x that minimise E(x) - f·x among those that keep the limits,
-/// where forces R of the limits balance the rest, ∇E(x) - f + R = 0. Each step
+/// The static equilibrium of a cloth with limits: positions x that minimise E(x) - f·x among those that keep the
+/// limits, where forces R of the limits balance the rest, ∇E(x) - f + R = 0. Each step
 ///   x̃ = argmin E(x) - f·x + R_k·x + ‖x - x_k‖²_M / (2h²),  x_{k+1} = P(x̃ + h² M⁻¹ R_k),
 ///   R_{k+1} = R_k + M (x̃ - x_{k+1}) / h²
 /// is a projected implicit Euler step without inertia that already knows the limits' forces (the alternating direction

@@ -33,7 +33,7 @@ ClothSimulation::ClothSimulation(std::shared_ptr<const ClothProblem> problem, St
   requirePositiveOption(options_.newton.tolerance, "the tolerance of Newton's method");
   if (!makeLimiter_)
     makeLimiter_ = [method = options_.limitMethod, projection = options_.projection](const SheetCones& cones) {
-      return makeStrainLimiter(method, cones, projection);
+      return makeStrainLimiter(method, cones.constraints, projection);
     };
   sheet_.fixed.assign(static_cast<std::size_t>(problem_->model->nodeCount()), 2);  // unlike any state: made at first
   const auto rest = problem_->model->restPositions.reshaped(3, problem_->model->nodeCount());

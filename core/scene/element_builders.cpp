@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/mechanics/solid.hpp"
+#include "core/scene/cloth_builder.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/mechanism_builders.hpp"
 #include "core/scene/rod_elements.hpp"
@@ -24,6 +25,12 @@ mechanics::Triangles trianglesOf(const ElementContext& context) {
 mechanics::ShellMaterial shellMaterial(const ElementContext& context) {
   const Json& material = *context.material;
   return {material["young_modulus"], material["poisson_ratio"], material["density"], context.entry["thickness"]};
+}
+
+mechanics::Vector restShape(const ElementContext& context) {
+  if (context.entry.contains("pattern") && context.model.dimension != 3)
+    throw InputError(context.pointer + "/pattern", "A pattern needs a scene of dimension 3.");
+  return restShapeOf(context.entry, context.pointer, context.geometry, context.directory, context.model.restPositions);
 }
 
 /// The factors of an entry, which live as long as this.
@@ -53,15 +60,15 @@ void addMembrane(const ElementContext& context) {
   const mechanics::Triangles triangles = trianglesOf(context);
   const mechanics::ShellMaterial material = shellMaterial(context);
   const Factors factors(context, triangles.size());
-  model.energies.push_back(mechanics::makeMembrane(model.dimension, model.restPositions, triangles, material, factors));
-  mechanics::addShellMass(
-      model.dimension, model.restPositions, triangles, material, context.massMatrix, context.mass, factors);
+  const mechanics::Vector rest = restShape(context);
+  model.energies.push_back(mechanics::makeMembrane(model.dimension, rest, triangles, material, factors));
+  mechanics::addShellMass(model.dimension, rest, triangles, material, context.massMatrix, context.mass, factors);
 }
 
 void addBending(const ElementContext& context) {
   const mechanics::Triangles triangles = trianglesOf(context);
   auto bending = mechanics::makeHingeBending(
-      context.model.restPositions, triangles, shellMaterial(context), Factors(context, triangles.size()));
+      restShape(context), triangles, shellMaterial(context), Factors(context, triangles.size()));
   if (bending) context.model.energies.push_back(std::move(bending));
 }
 

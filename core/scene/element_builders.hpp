@@ -30,6 +30,7 @@ struct ElementContext {
   mechanics::DisplayPart& part;               ///< of the geometry
   std::vector<Eigen::Triplet<double>>& mass;  ///< on all coordinates [kg]
   std::vector<NodeFrame>& frames;             ///< of rods
+  const std::filesystem::path& directory;     ///< of the scene
 };
 
 using ElementBuilder = void (*)(const ElementContext&);

@@ -1,5 +1,6 @@
 #include "core/scene/element_specs.hpp"
 
+#include "core/scene/cloth_specs.hpp"
 #include "core/scene/rod_elements.hpp"
 #include "core/scene/spec_builder.hpp"
 
@@ -47,7 +48,8 @@ base::ParameterSpec elementSpecs() {
     return object(
         std::move(type), std::move(description),
         {name(), geometry, material, positive(number("thickness", "h", "Thickness.", dimensions::length)),
-         stiffnessFactors, factors("thickness_factors", "Multiply the thickness, one a triangle; all 1 if empty.")});
+         stiffnessFactors, factors("thickness_factors", "Multiply the thickness, one a triangle; all 1 if empty."),
+         patternSpec()});
   };
   ParameterSpec spec = variant(
       "element",

@@ -18,6 +18,10 @@ bool isSignal(const ParameterSpec& spec) {
   return spec.kind == ValueKind::list && spec.items.front().key == "harmonic";
 }
 
+bool isMotion(const ParameterSpec& spec) {
+  return spec.kind == ValueKind::list && spec.items.front().key == "keyframe";
+}
+
 std::string kindOf(const ParameterSpec& spec) {
   switch (spec.kind) {
     case ValueKind::number: {
@@ -38,6 +42,7 @@ std::string kindOf(const ParameterSpec& spec) {
     case ValueKind::list: {
       if (isSignal(spec))
         return "[harmonics](#harmonics) [" + base::siUnit(spec.items.front().fields[1].dimension) + "]";
+      if (isMotion(spec)) return "list of [keyframes](#keyframes)";
       const ParameterSpec& item = spec.items.front();
       const std::string unit = base::siUnit(item.dimension);
       if (spec.spatial) return unit.empty() ? "vector" : "vector [" + unit + "]";
@@ -81,9 +86,14 @@ void addTable(const ParameterSpec& spec, std::string& out) {
 /// Tables of the objects inside `spec` that have no table of their own elsewhere.
 void addInner(const ParameterSpec& spec, std::string& out) {
   for (const ParameterSpec& field : spec.fields) {
-    if (field.kind != ValueKind::object || isSelection(field)) continue;
-    out += "\n" + code(field.key) + ":\n";
-    addTable(field, out);
+    if (field.kind == ValueKind::object && !isSelection(field)) {
+      out += "\n" + code(field.key) + ":\n";
+      addTable(field, out);
+    } else if (field.kind == ValueKind::list && field.items.front().kind == ValueKind::object && !isSignal(field) &&
+               !isMotion(field)) {
+      out += "\nEach of " + code(field.key) + ":\n";
+      addTable(field.items.front(), out);
+    }
   }
 }
 
@@ -98,10 +108,9 @@ void addEntries(const ParameterSpec& field, std::string& out) {
     addTable(entry, out);
     return;
   }
-  const bool mayLeaveOut = entry.items.size() == 1;
   for (const ParameterSpec& item : entry.items) {
-    out += "\n**" + code("\"type\": \"" + item.key + "\"") + "**" + (mayLeaveOut ? " (may be left out)" : "") + ": " +
-           item.description + "\n";
+    out += "\n**" + code("\"type\": \"" + item.key + "\"") + "**" +
+           (&item == entry.itemWithoutType() ? " (may be left out)" : "") + ": " + item.description + "\n";
     addTable(item, out);
     if (&item == &entry.items.front() || field.key != "geometry") addInner(item, out);
   }
@@ -140,6 +149,9 @@ std::string formatTables() {
       "has the unit that the table above names.",
       out);
   addTable(find(scene, isSignal)->items.front(), out);
+  const ParameterSpec& keyframe = find(scene, isMotion)->items.front();
+  addHeading("Keyframes", keyframe.description, out);
+  addTable(keyframe, out);
   return out;
 }
 

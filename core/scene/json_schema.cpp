@@ -78,11 +78,10 @@ Json schemaOf(const ParameterSpec& spec) {
     case ValueKind::list: result = listSchema(spec); break;
     case ValueKind::object: result = objectSchema(spec, false, false); break;
     case ValueKind::variant: {
-      const bool typeRequired = spec.items.size() > 1;
       Json items = Json::array();
       for (const ParameterSpec& item : spec.items) {
         Json schema{{"title", item.key}, {"description", item.description}};
-        schema.update(objectSchema(item, true, typeRequired));
+        schema.update(objectSchema(item, true, &item != spec.itemWithoutType()));
         items.push_back(schema);
       }
       result = {{"oneOf", items}};

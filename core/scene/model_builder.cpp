@@ -36,7 +36,10 @@ mechanics::PeriodicSignal toSignal(const Json& harmonics) {
 class Builder {
  public:
   explicit Builder(const Scene& scene)
-      : scene_(scene.normalized()), dimension_(scene_["dimension"]), geometries_(placeGeometry(scene)) {
+      : scene_(scene.normalized()),
+        directory_(scene.directory()),
+        dimension_(scene_["dimension"]),
+        geometries_(placeGeometry(scene)) {
     model_.dimension = dimension_;
   }
 
@@ -128,7 +131,7 @@ class Builder {
           geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
       mechanics::DisplayPart& part = model_.parts[static_cast<std::size_t>(geometry - geometries_.begin())];
       elementBuilders().at(entry["type"])(
-          {entry, pointer, material, *geometry, kind, held, model_, part, mass, frames_});
+          {entry, pointer, material, *geometry, kind, held, model_, part, mass, frames_, directory_});
     });
     mechanics::SparseMatrix matrix(model_.restPositions.size(), model_.restPositions.size());
     matrix.setFromTriplets(mass.begin(), mass.end());
@@ -229,7 +232,7 @@ class Builder {
     if (entry["type"] == "gravity") {
       const Vector acceleration = toVector(entry["acceleration"]);
       model_.gravity = model_.gravity.size() == 0 ? acceleration : Vector(model_.gravity + acceleration);
-    } else {
+    } else if (entry["type"] == "harmonic_force") {
       model_.forces.push_back({entry["name"], nodesAt(entry, pointer), toVector(entry["direction"]).stableNormalized(),
                                toSignal(entry["harmonics"])});
     }
@@ -258,6 +261,7 @@ class Builder {
   }
 
   const Json& scene_;
+  const std::filesystem::path directory_;
   int dimension_;
   std::vector<PlacedGeometry> geometries_;
   mechanics::Model model_;

@@ -204,7 +204,7 @@ class Normalizer {
     std::vector<std::string> types;
     for (const ParameterSpec& item : spec.items) types.push_back(item.key);
     if (!found.contains("type")) {
-      if (spec.items.size() == 1) return object(spec.items.front(), found, pointer, true);
+      if (const ParameterSpec* item = spec.itemWithoutType()) return object(*item, found, pointer, true);
       throw InputError(place, "This key is missing" + suggestion("", types));
     }
     if (!found["type"].is_string()) expected(place, "a text in double quotes", found["type"]);

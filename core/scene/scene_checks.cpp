@@ -39,6 +39,24 @@ void checkNotZero(const Json& vector, const std::string& pointer) {
     throw InputError(pointer, "A direction must not be zero.");
 }
 
+/// Axes of turns and materials' directions, and keyframes in the order of time.
+void checkClothEntries(const Json& scene) {
+  for (const char* list : {"boundary_conditions", "bodies"})
+    for (std::size_t i = 0; i < scene[list].size(); ++i) {
+      const Json path = scene[list][i].value("path", Json::array());
+      for (std::size_t k = 0; k < path.size(); ++k) {
+        const std::string place = childPointer(at(list, i) + "/path", k);
+        checkNotZero(path[k]["axis"], place + "/axis");
+        if (k > 0 && !(path[k]["time"] > path[k - 1]["time"]))
+          throw InputError(place + "/time", "Keyframes must ascend in time.");
+      }
+      if (scene[list][i].contains("rotation"))
+        checkNotZero(scene[list][i]["rotation"]["axis"], at(list, i) + "/rotation/axis");
+    }
+  for (std::size_t i = 0; i < scene["stretch_limits"].size(); ++i)
+    checkNotZero(scene["stretch_limits"][i]["direction"], at("stretch_limits", i) + "/direction");
+}
+
 void checkDirections(const Json& scene) {
   for (const char* list : {"springs", "drives", "loads"})
     for (std::size_t i = 0; i < scene[list].size(); ++i)
@@ -70,6 +88,8 @@ void checkDimension(const Json& scene) {
       throw InputError(at("drives", i) + "/type", "Only a translation is possible" + because);
   for (std::size_t i = 0; i < scene["boundary_conditions"].size(); ++i) {
     const Json& entry = scene["boundary_conditions"][i];
+    if (dimension != 3 && entry["type"] == "pin")
+      throw InputError(at("boundary_conditions", i) + "/type", "A pin is not possible" + because);
     if (!entry.contains("coordinates")) continue;
     for (std::size_t c = 0; c < entry["coordinates"].size(); ++c)
       if (entry["coordinates"][c].get_ref<const std::string&>()[0] - 'x' >= dimension)
@@ -110,6 +130,7 @@ void checkExpected(const Json& scene) {
 void checkScene(Json& normalized) {
   checkMasses(normalized);
   checkDirections(normalized);
+  checkClothEntries(normalized);
   checkDimension(normalized);
   checkStudies(normalized);
   checkExpected(normalized);

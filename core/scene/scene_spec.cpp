@@ -1,3 +1,4 @@
+#include "core/scene/cloth_specs.hpp"
 #include "core/scene/element_specs.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/spec_builder.hpp"
@@ -151,12 +152,15 @@ ParameterSpec pointMasses() {
 }
 
 ParameterSpec boundaryConditions() {
-  return variant(
+  ParameterSpec spec = variant(
       "boundary_condition", "What some nodes may not do.",
       {object("locked", "Coordinates that keep their rest value. Where all are locked, rods are clamped as well.",
               {name(), selection("at", "Nodes."),
                optional(list("coordinates", "Which; all if left out. If given, rods may still turn.",
-                             choice("", "A coordinate.", {"x", "y", "z"}), 1, 3))})});
+                             choice("", "A coordinate.", {"x", "y", "z"}), 1, 3))}),
+       pinSpec()});
+  spec.defaultItem = "locked";
+  return spec;
 }
 
 ParameterSpec drives() {
@@ -187,6 +191,7 @@ ParameterSpec loads() {
   return variant("load", "External forces.",
                  {object("gravity", "Acts on all mass.",
                          {name(), vector("acceleration", "Such as [0, 0, -9.81].", dimensions::acceleration)}),
+                  windSpec(),
                   object("harmonic_force", "A periodic force on each of some nodes.",
                          {name(), selection("at", "Nodes; each gets the force."),
                           vector("direction", "Only the direction counts.", dimensions::none),
@@ -226,8 +231,13 @@ ParameterSpec makeSceneSpec() {
        entries("elements", "Elastic bodies.", elementSpecs()),
        entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
        entries("springs", "Springs.", springs()),
+       entries("seams", "Nodes that are sewn together.", seamSpec()),
+       entries("stretch_limits", "How far cloth may stretch.", stretchLimitSpecs()),
        entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
-       entries("drives", "Nodes that are moved.", drives()), entries("loads", "Forces.", loads()),
+       entries("bodies", "What cloth lies on.", bodySpecs()),
+       withDefault(contactSpec(), Json::object()),
+       entries("drives", "Nodes that are moved.", drives()),
+       entries("loads", "Forces.", loads()),
        withDefault(object("damping", "Rayleigh damping D = D_α M + D_β K(x).",
                           {withDefault(notNegative(number(
                                            "mass_proportional", "D_α", "Factor of the mass matrix.", dimensions::rate)),

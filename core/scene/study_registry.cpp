@@ -1,4 +1,5 @@
 #include "core/base/error.hpp"
+#include "core/scene/cloth_studies.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
@@ -36,7 +37,10 @@ StudyRegistry::StudyRegistry()
                  {"linear_modes", makeLinearModesStudy},
                  {"linear_response", makeLinearResponseStudy},
                  {"time_integration", makeTimeIntegrationStudy},
-                 {"comparison", makeComparisonStudy}} {}
+                 {"comparison", makeComparisonStudy},
+                 {"cloth_motion", makeClothMotionStudy},
+                 {"cloth_drape", makeClothDrapeStudy},
+                 {"projection", makeProjectionStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;
@@ -68,8 +72,14 @@ std::string hashScene(const Scene& scene) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   };
   add(scene.normalized().dump());
-  for (const Json& geometry : scene.normalized()["geometry"])
-    if (geometry.contains("path")) add(readTextFile(scene.directory() / geometry["path"].get<std::string>()));
+  const auto addFile = [&](const Json& entry, const char* key) {
+    if (entry.contains(key)) add(readTextFile(scene.directory() / entry[key].get<std::string>()));
+  };
+  for (const Json& geometry : scene.normalized()["geometry"]) addFile(geometry, "path");
+  for (const Json& element : scene.normalized()["elements"])
+    if (element.contains("pattern")) addFile(element["pattern"], "path");
+  for (const Json& body : scene.normalized()["bodies"]) addFile(body, "file");
+  for (const Json& study : scene.normalized()["studies"]) addFile(study, "candidate");
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text;
   for (int shift = 60; shift >= 0; shift -= 4) text += digits[(hash >> shift) & 15];

@@ -1,5 +1,6 @@
 #include "core/scene/study_specs.hpp"
 
+#include "core/scene/cloth_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -84,89 +85,95 @@ ParameterSpec step(std::string key, std::string description) {
 }  // namespace
 
 const std::vector<ParameterSpec>& studySpecs() {
-  static const std::vector<ParameterSpec> specs{
-      harmonicStudy(
-          "periodic_motion",
-          "The periodic motion at one driving frequency, and how it depends on each design parameter.",
-          {frequency("frequency", "ω", "Driving frequency.")},
-          drivenKeys(
-              {optional(
-                   positive(number("harmonics_tolerance", "",
-                                   "Raise the harmonics until no probe's trajectory changes by more than this fraction "
-                                   "of its length.",
-                                   dimensions::none))),
-               withDefault(choice("harmonics_of",
-                                  "With \"harmonics_tolerance\": \"model\" raises the harmonics of all nodes alike; "
-                                  "\"node\" those of each node, until what is left out would move it by no more "
-                                  "than that fraction of the longest path.",
-                                  {"model", "node"}),
-                           "model"),
-               withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
-      harmonicStudy(
-          "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
-          {from(), to()},
-          drivenKeys(
-              {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
-               step("minimum_step", "Smallest step before giving up; chosen if left out."),
-               step("maximum_step", "Largest step; chosen if left out."),
-               withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
-               locationTolerance("Relative error of the frequency of folds, peaks and bifurcations."),
-               withDefault(
-                   integer("branches", "",
-                           "Follow the curves that branch off at branch points and period doublings: 1 those that "
-                           "branch off the first curve, 2 also those that branch off these, and so on.",
-                           0, 10),
-                   0)})),
-      harmonicStudy(
-          "backbone",
-          "The free motions without damping, loads' swings and drives that continue a linear mode: how its frequency "
-          "changes with the amplitude (a nonlinear normal mode).",
-          {withDefault(integer("mode", "", "Which mode, by rising frequency.", 1, 1000), 1),
-           positive(number("maximum_amplitude", "a", "The curve ends where a node is this far from its mean position.",
-                           dimensions::length))},
-          {withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 500)}),
-      object("linear_modes",
-             "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
-             {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),
-      object(
-          "linear_response",
-          "The response curve of the model linearised about its static equilibrium: what linear modal analysis with "
-          "all modes gives.",
-          {name(), from(), to(),
-           withDefault(integer("points", "", "Points spread evenly; more are put around resonances.", 2, 100'000), 200),
-           harmonics(), samples(), locationTolerance("Relative error of the frequency of peaks.")}),
-      object("time_integration",
-             "Newmark's method (trapezoidal rule) from the static equilibrium until two successive periods agree.",
-             {name(), frequency("frequency", "ω", "Driving frequency."),
-              withDefault(integer("steps_per_period", "N", "Time steps of a period.", 8, 100'000), 256),
-              maximumPeriods(), periodTolerance(),
-              withDefault(boolean("extrapolate",
-                                  "Extrapolate the start of the next period from the ones before, so that transients "
-                                  "need not die away; unstable motions are found as well."),
-                          false),
-              withDefault(boolean("shooting",
-                                  "Instead, once nearly periodic, Newton's method on the start of a period, with the "
-                                  "monodromy matrix by differences, which gives all Floquet multipliers as well: four "
-                                  "periods a free coordinate and iteration, for checks of small models."),
-                          false)}),
-      object(
-          "comparison",
-          "Harmonic balance against Newmark's method at one frequency: how the difference falls with harmonics, "
-          "samples and steps.",
-          {name(), frequency("frequency", "ω", "Driving frequency."),
-           withDefault(list("harmonic_counts", "Harmonic balance with each of these numbers of harmonics; ascending.",
-                            integer("", "H", "Harmonics.", 1, 200), 1, 100),
-                       base::Json{1, 2, 3, 5, 7, 9}),
-           samples(),
-           withDefault(list("steps_per_period",
-                            "Newmark's method with each of these numbers of steps; ascending multiples of the first.",
-                            integer("", "N", "Time steps of a period.", 8, 100'000), 1, 100),
-                       base::Json{64, 128, 256, 512}),
-           withDefault(
-               integer("harmonics", "H",
-                       "Harmonics of the solutions that have as many samples as Newmark's method has steps.", 1, 200),
-               5),
-           maximumPeriods(), periodTolerance()})};
+  static const std::vector<ParameterSpec> specs = [] {
+    std::vector<ParameterSpec> all{
+        harmonicStudy(
+            "periodic_motion",
+            "The periodic motion at one driving frequency, and how it depends on each design parameter.",
+            {frequency("frequency", "ω", "Driving frequency.")},
+            drivenKeys(
+                {optional(positive(
+                     number("harmonics_tolerance", "",
+                            "Raise the harmonics until no probe's trajectory changes by more than this fraction "
+                            "of its length.",
+                            dimensions::none))),
+                 withDefault(choice("harmonics_of",
+                                    "With \"harmonics_tolerance\": \"model\" raises the harmonics of all nodes alike; "
+                                    "\"node\" those of each node, until what is left out would move it by no more "
+                                    "than that fraction of the longest path.",
+                                    {"model", "node"}),
+                             "model"),
+                 withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
+        harmonicStudy(
+            "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
+            {from(), to()},
+            drivenKeys(
+                {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
+                 step("minimum_step", "Smallest step before giving up; chosen if left out."),
+                 step("maximum_step", "Largest step; chosen if left out."),
+                 withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
+                 locationTolerance("Relative error of the frequency of folds, peaks and bifurcations."),
+                 withDefault(
+                     integer("branches", "",
+                             "Follow the curves that branch off at branch points and period doublings: 1 those that "
+                             "branch off the first curve, 2 also those that branch off these, and so on.",
+                             0, 10),
+                     0)})),
+        harmonicStudy(
+            "backbone",
+            "The free motions without damping, loads' swings and drives that continue a linear mode: how its frequency "
+            "changes with the amplitude (a nonlinear normal mode).",
+            {withDefault(integer("mode", "", "Which mode, by rising frequency.", 1, 1000), 1),
+             positive(number("maximum_amplitude", "a",
+                             "The curve ends where a node is this far from its mean position.", dimensions::length))},
+            {withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 500)}),
+        object("linear_modes",
+               "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
+               {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),
+        object(
+            "linear_response",
+            "The response curve of the model linearised about its static equilibrium: what linear modal analysis with "
+            "all modes gives.",
+            {name(), from(), to(),
+             withDefault(
+                 integer("points", "", "Points spread evenly; more are put around resonances.", 2, 100'000), 200),
+             harmonics(), samples(), locationTolerance("Relative error of the frequency of peaks.")}),
+        object(
+            "time_integration",
+            "Newmark's method (trapezoidal rule) from the static equilibrium until two successive periods agree.",
+            {name(), frequency("frequency", "ω", "Driving frequency."),
+             withDefault(integer("steps_per_period", "N", "Time steps of a period.", 8, 100'000), 256),
+             maximumPeriods(), periodTolerance(),
+             withDefault(boolean("extrapolate",
+                                 "Extrapolate the start of the next period from the ones before, so that transients "
+                                 "need not die away; unstable motions are found as well."),
+                         false),
+             withDefault(boolean("shooting",
+                                 "Instead, once nearly periodic, Newton's method on the start of a period, with the "
+                                 "monodromy matrix by differences, which gives all Floquet multipliers as well: four "
+                                 "periods a free coordinate and iteration, for checks of small models."),
+                         false)}),
+        object(
+            "comparison",
+            "Harmonic balance against Newmark's method at one frequency: how the difference falls with harmonics, "
+            "samples and steps.",
+            {name(), frequency("frequency", "ω", "Driving frequency."),
+             withDefault(list("harmonic_counts", "Harmonic balance with each of these numbers of harmonics; ascending.",
+                              integer("", "H", "Harmonics.", 1, 200), 1, 100),
+                         base::Json{1, 2, 3, 5, 7, 9}),
+             samples(),
+             withDefault(list("steps_per_period",
+                              "Newmark's method with each of these numbers of steps; ascending multiples of the first.",
+                              integer("", "N", "Time steps of a period.", 8, 100'000), 1, 100),
+                         base::Json{64, 128, 256, 512}),
+             withDefault(
+                 integer("harmonics", "H",
+                         "Harmonics of the solutions that have as many samples as Newmark's method has steps.", 1, 200),
+                 5),
+             maximumPeriods(), periodTolerance()})};
+    for (ParameterSpec& cloth : clothStudySpecs()) all.push_back(std::move(cloth));
+    return all;
+  }();
   return specs;
 }
 

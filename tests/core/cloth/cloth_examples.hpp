@@ -29,8 +29,11 @@ inline ClothProblem sheetProblem(int cells, double side = 0.5, mechanics::ShellM
   model->finish();
   ClothProblem problem;
   problem.sheet.nodeCount = model->nodeCount();
-  const Eigen::Vector2d none = Eigen::Vector2d::Zero();
-  for (const auto& nodes : mesh.triangles) problem.sheet.triangles.push_back({nodes, {none, none, none}, -1});
+  for (const auto& nodes : mesh.triangles) {
+    Eigen::Matrix3d corners;
+    for (int i = 0; i < 3; ++i) corners.col(i) = mesh.points.col(nodes[static_cast<std::size_t>(i)]);
+    problem.sheet.triangles.push_back({nodes, cloth::shapeGradients(corners, Eigen::Vector3d::UnitX()), -1});
+  }
   problem.sheet.masses = cloth::lumpedMasses(*model);
   problem.sheet.fixed.assign(static_cast<std::size_t>(model->nodeCount()), 0);
   problem.model = std::move(model);
@@ -49,6 +52,25 @@ ClothProblem withModel(ClothProblem problem, const Change& change) {
 
 inline ClothProblem withGravity(ClothProblem problem, const Eigen::Vector3d& acceleration) {
   return withModel(std::move(problem), [&](mechanics::Model& model) { model.gravity = acceleration; });
+}
+
+/// The problem with one isotropic limit for all triangles.
+inline ClothProblem withLimit(ClothProblem problem, double stretch) {
+  problem.sheet.limits = {cloth::IsotropicLimit{stretch}};
+  problem.sheet.constraints = {cloth::exactConstraints(problem.sheet.limits.front())};
+  for (cloth::SheetTriangle& triangle : problem.sheet.triangles) triangle.limit = 0;
+  return problem;
+}
+
+/// The problem with its two corners at x = 0 locked.
+inline ClothProblem hungByCorners(ClothProblem problem) {
+  return withModel(std::move(problem), [](mechanics::Model& model) {
+    const double side = model.restPositions.maxCoeff();
+    for (int node = 0; node < model.nodeCount(); ++node)
+      for (int axis = 0; axis < 3; ++axis)
+        if (model.restPositions[3 * node] == 0 && std::abs(model.restPositions[3 * node + 1]) > 0.499 * side)
+          model.lockedCoordinates[static_cast<std::size_t>(3 * node + axis)] = 1;
+  });
 }
 
 /// Numbers that are the same in every run.

@@ -1,0 +1,250 @@
+#include "core/scene/cloth_builder.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/scene/input_error_location.hpp"
+#include "core/scene/json_text.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+
+namespace {
+
+Eigen::Vector3d spaceVector(const Json& values) {
+  return {values[0].get<double>(), values[1].get<double>(), values[2].get<double>()};
+}
+
+/// Axis times angle.
+Eigen::Vector3d rotationOf(const Json& entry) {
+  return entry["angle"].get<double>() * spaceVector(entry["axis"]).stableNormalized();
+}
+
+std::vector<cloth::Keyframe> pathOf(const Json& entry) {
+  std::vector<cloth::Keyframe> path;
+  for (const Json& keyframe : entry["path"])
+    path.push_back({keyframe["time"], spaceVector(keyframe["translation"]), rotationOf(keyframe)});
+  return path;
+}
+
+class ClothBuilder {
+ public:
+  ClothBuilder(const Scene& scene, std::shared_ptr<const mechanics::Model> model)
+      : scene_(scene), json_(scene.normalized()), model_(std::move(model)) {
+    if (json_["dimension"] != 3) throw InputError("/dimension", "Studies of cloth need a scene of dimension 3.");
+    geometries_ = placeGeometry(scene);
+  }
+
+  std::shared_ptr<const cloth::ClothProblem> build() {
+    addPins();
+    problem_.model = model_;
+    addTriangles();
+    forEachEntry("stretch_limits", [&](const Json& entry, const std::string& pointer) { addLimit(entry, pointer); });
+    forEachEntry("bodies", [&](const Json& entry, const std::string& pointer) { addBody(entry, pointer); });
+    forEachEntry("loads", [&](const Json& entry, const std::string&) {
+      if (entry["type"] != "wind") return;
+      if (problem_.wind) throw InputError("", "studies of cloth know one wind alone");
+      problem_.wind = cloth::Wind{
+          spaceVector(entry["velocity"]), entry["air_density"], entry["drag"], entry["gust"], entry["gust_period"]};
+    });
+    problem_.contactDistance = json_["contact"]["distance"];
+    problem_.selfContact = json_["contact"]["self_contact"];
+    finishSheet();
+    locate("/elements", [&] { checkClothProblem(problem_); });
+    return std::make_shared<const cloth::ClothProblem>(std::move(problem_));
+  }
+
+ private:
+  template <class Body>
+  void forEachEntry(const char* list, const Body& body) {
+    for (std::size_t i = 0; i < json_[list].size(); ++i) {
+      const std::string pointer = childPointer("/" + std::string(list), i);
+      locate(pointer, [&] { body(json_[list][i], pointer); });
+    }
+  }
+
+  /// What the model locks for the sake of other studies is free again where a pin says how it moves.
+  void addPins() {
+    auto model = std::make_shared<mechanics::Model>(*model_);
+    std::set<int> pinned, locked;
+    forEachEntry("boundary_conditions", [&](const Json& entry, const std::string& pointer) {
+      const std::vector<int> nodes = selectNodes(entry["at"], pointer + "/at", geometries_);
+      if (entry["type"] == "locked") {
+        if (entry.contains("coordinates") && entry["coordinates"].get<std::set<std::string>>().size() < 3)
+          throw InputError(
+              pointer + "/coordinates", "Studies of cloth hold nodes with all three coordinates or not at all.");
+        locked.insert(nodes.begin(), nodes.end());
+        return;
+      }
+      cloth::Pin pin{entry["name"], nodes, pathOf(entry), std::nullopt};
+      if (entry.contains("release")) pin.release = entry["release"].get<double>();
+      for (const int node : nodes) {
+        if (!pinned.insert(node).second)
+          throw InputError(pointer + "/at", "Node " + std::to_string(node) + " is pinned twice.");
+        for (int axis = 0; axis < 3; ++axis) model->lockedCoordinates[static_cast<std::size_t>(3 * node + axis)] = 0;
+      }
+      problem_.pins.push_back(std::move(pin));
+    });
+    for (const int node : locked)
+      if (pinned.contains(node))
+        throw InputError("/boundary_conditions", "Node " + std::to_string(node) + " is both pinned and locked.");
+    if (problem_.pins.empty()) return;
+    locate("/boundary_conditions", [&] { model->finish(); });
+    model_ = std::move(model);
+  }
+
+  const PlacedGeometry& geometryNamed(const Json& name) const {
+    return *std::find_if(
+        geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == name; });
+  }
+
+  static bool isSheet(const Json& element) { return element["type"] == "shell" || element["type"] == "membrane"; }
+
+  /// The triangles of every geometry that is a sheet, once.
+  void addTriangles() {
+    for (const Json& element : json_["elements"]) {
+      const std::string name = element.value("geometry", "");
+      if (!isSheet(element) || firstTriangle_.contains(name)) continue;
+      const PlacedGeometry& geometry = geometryNamed(name);
+      firstTriangle_[name] = problem_.sheet.triangles.size();
+      const Eigen::Vector2d none = Eigen::Vector2d::Zero();
+      for (const auto& nodes : geometry.global(geometry.mesh.triangles))
+        problem_.sheet.triangles.push_back({nodes, {none, none, none}, -1});
+    }
+    problem_.sheet.nodeCount = model_->nodeCount();
+  }
+
+  static cloth::StretchLimit limitOf(const Json& entry) {
+    if (entry["type"] == "isotropic") return cloth::IsotropicLimit{entry["stretch"]};
+    if (entry["type"] == "orthotropic") return cloth::OrthotropicLimit{entry["first"], entry["second"], entry["angle"]};
+    std::vector<cloth::DirectionLimit> points;
+    for (const Json& point : entry["points"]) points.push_back({point["angle"], point["stretch"]});
+    return cloth::LimitCurve(std::move(points));
+  }
+
+  static cloth::LimitConstraints constraintsOf(const Json& entry, const cloth::StretchLimit& limit) {
+    if (entry["type"] == "curve") {
+      const std::string kind = entry["constraints"];
+      const int count = entry["count"];
+      return kind == "ellipses"     ? cloth::ellipseConstraints(limit, count)
+             : kind == "directions" ? cloth::directionConstraints(limit, count)
+                                    : cloth::limitConstraints(limit, count);
+    }
+    return entry.contains("directions") ? cloth::directionConstraints(limit, entry["directions"])
+                                        : cloth::exactConstraints(limit);
+  }
+
+  void addLimit(const Json& entry, const std::string& pointer) {
+    const auto& elements = json_["elements"];
+    const auto element =
+        std::find_if(elements.begin(), elements.end(), [&](const Json& e) { return e["name"] == entry["element"]; });
+    if (!isSheet(*element))
+      throw InputError(pointer + "/element", quote(entry["element"].get<std::string>()) + " is no shell or membrane.");
+    const PlacedGeometry& geometry = geometryNamed((*element)["geometry"]);
+    const std::size_t index = static_cast<std::size_t>(element - elements.begin());
+    const mechanics::Vector rest =
+        restShapeOf(*element, childPointer("/elements", index), geometry, scene_.directory(), model_->restPositions);
+    const cloth::StretchLimit limit = limitOf(entry);
+    if (const double smallest = cloth::smallestStretch(limit); smallest < 1)
+      throw InputError(pointer, "The rest shape breaks this limit: its smallest stretch is " +
+                                    base::formatQuantityExactly(smallest, {}) + ", below 1.");
+    const int number = static_cast<int>(problem_.sheet.limits.size());
+    problem_.sheet.constraints.push_back(constraintsOf(entry, limit));
+    problem_.sheet.limits.push_back(limit);
+    const std::vector<char> chosen = nodesOfGroup(entry, pointer, geometry);
+    const std::size_t first = firstTriangle_.at(geometry.name);
+    bool any = false;
+    for (std::size_t t = 0; t < geometry.mesh.triangles.size(); ++t) {
+      const auto& corners = geometry.mesh.triangles[t];
+      if (!std::all_of(
+              corners.begin(), corners.end(), [&](int node) { return chosen[static_cast<std::size_t>(node)]; }))
+        continue;
+      cloth::SheetTriangle& triangle = problem_.sheet.triangles[first + t];
+      Eigen::Matrix3d points;
+      for (int corner = 0; corner < 3; ++corner)
+        points.col(corner) = rest.segment<3>(3 * triangle.nodes[static_cast<std::size_t>(corner)]);
+      triangle.gradients = cloth::shapeGradients(points, spaceVector(entry["direction"]));
+      triangle.limit = number;
+      any = true;
+    }
+    if (!any) throw InputError(pointer + "/group", "No triangle has all its nodes in this group.");
+  }
+
+  std::vector<char> nodesOfGroup(const Json& entry, const std::string& pointer, const PlacedGeometry& geometry) const {
+    const auto count = static_cast<std::size_t>(geometry.nodeCount());
+    if (!entry.contains("group")) return std::vector<char>(count, 1);
+    const Json selection{{"geometry", geometry.name}, {"group", entry["group"]}};
+    std::vector<char> chosen(count, 0);
+    for (const int node : selectNodes(selection, pointer, geometries_))
+      chosen[static_cast<std::size_t>(node - geometry.firstNode)] = 1;
+    return chosen;
+  }
+
+  void addBody(const Json& entry, const std::string& pointer) {
+    cloth::Body body;
+    body.name = entry["name"];
+    body.path = pathOf(entry);
+    if (entry["type"] == "sphere") {
+      body.points = body.centre = spaceVector(entry["center"]);
+      body.radius = entry["radius"];
+    } else if (entry["type"] == "capsule") {
+      body.points.resize(3, 2);
+      body.points << spaceVector(entry["from"]), spaceVector(entry["to"]);
+      if (body.points.col(0) == body.points.col(1))
+        throw InputError(pointer + "/to", "A capsule needs two different ends; use a sphere.");
+      body.edges = {{0, 1}};
+      body.centre = body.points.rowwise().mean();
+      body.radius = entry["radius"];
+    } else {
+      const auto file = scene_.directory() / std::filesystem::path(entry["file"].get<std::string>());
+      // Surfaces made of corners that only look joined have gaps that edges find.
+      geometry::SurfaceMesh mesh = locate(pointer + "/file", [&] {
+        const geometry::SurfaceMesh read = geometry::readMesh(file, entry["scale"]);
+        const double size = (read.points.rowwise().maxCoeff() - read.points.rowwise().minCoeff()).norm();
+        return geometry::weldMesh(read, 1e-6 * size);
+      });
+      body.points = std::move(mesh.points);
+      if (entry.contains("rotation")) {
+        const cloth::Keyframe turn{0, Eigen::Vector3d::Zero(), rotationOf(entry["rotation"])};
+        body.points = cloth::placementAt({turn}, 0).apply(body.points, Eigen::Vector3d::Zero());
+      }
+      body.points.colwise() += spaceVector(entry["position"]);
+      body.triangles = std::move(mesh.triangles);
+      body.centre = body.points.rowwise().mean();
+      body.radius = entry["thickness"];
+    }
+    problem_.bodies.push_back(std::move(body));
+  }
+
+  void finishSheet() {
+    problem_.sheet.fixed = heldNodes(problem_, 0);
+    problem_.sheet.masses = cloth::lumpedMasses(*model_);
+    // A held node may have no mass, and the weight of what cannot move does not matter.
+    for (Eigen::Index node = 0; node < problem_.sheet.masses.size(); ++node)
+      if (problem_.sheet.fixed[static_cast<std::size_t>(node)] && !(problem_.sheet.masses[node] > 0))
+        problem_.sheet.masses[node] = 1;
+  }
+
+  const Scene& scene_;
+  const Json& json_;
+  std::shared_ptr<const mechanics::Model> model_;
+  std::vector<PlacedGeometry> geometries_;
+  cloth::ClothProblem problem_;
+  std::map<std::string, std::size_t> firstTriangle_;  ///< of each geometry in the sheet
+};
+
+}  // namespace
+
+std::shared_ptr<const cloth::ClothProblem> buildClothProblem(const Scene& scene,
+                                                             std::shared_ptr<const mechanics::Model> model) {
+  try {
+    return ClothBuilder(scene, std::move(model)).build();
+  } catch (const InputError& error) {
+    throw error.inside(scene.name());
+  }
+}
+
+}  // namespace pliant::scene
