@@ -13,15 +13,11 @@
 
 namespace pliant::panels {
 
-bool isClothStudy(const document::StudyState& study) {
-  return study.type == "cloth_motion" || study.type == "cloth_drape" || study.type == "projection";
-}
-
 std::vector<ClothRun> clothRuns(const document::Document& document, const std::string& first) {
   std::vector<ClothRun> runs;
   int group = -1;
   for (const document::StudyState& study : document.studies()) {
-    if (!isClothStudy(study)) continue;
+    if (!document::isClothStudy(study.type)) continue;
     ++group;
     if (!study.result || study.result->kind() != "cloth") continue;
     ClothRun run{
@@ -77,11 +73,10 @@ EnergyPanel::EnergyPanel(document::Document& document, QWidget* parent) : QWidge
   connect(plot_, &plots::LinePlot::placeChosen, this, [this](double x) {
     if (kind().overTime) Q_EMIT instantChosen(x);
   });
-  for (const auto changed : {&document::Document::sceneReplaced})
-    connect(&document_, changed, this, [this] {
-      fillStudies();
-      refresh();
-    });
+  connect(&document_, &document::Document::sceneReplaced, this, [this] {
+    fillStudies();
+    refresh();
+  });
   connect(&document_, &document::Document::sceneEdited, this, &EnergyPanel::fillStudies);
   connect(&document_, &document::Document::studyChanged, this, &EnergyPanel::refresh);
   fillStudies();
@@ -97,7 +92,7 @@ void EnergyPanel::fillStudies() {
   const QString before = studies_->currentText();
   studies_->clear();
   for (const document::StudyState& study : document_.studies())
-    if (isClothStudy(study)) studies_->addItem(QString::fromStdString(study.name));
+    if (document::isClothStudy(study.type)) studies_->addItem(QString::fromStdString(study.name));
   studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
   studies_->setVisible(studies_->count() > 1);
 }

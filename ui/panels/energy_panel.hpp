@@ -51,7 +51,4 @@ class EnergyPanel final : public QWidget {
 /// The results of cloth studies in the document, in the order of the scene; that of `first` before all others.
 std::vector<ClothRun> clothRuns(const document::Document& document, const std::string& first);
 
-/// Whether a study is one of a cloth.
-bool isClothStudy(const document::StudyState& study);
-
 }  // namespace pliant::panels

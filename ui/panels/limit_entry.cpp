@@ -31,6 +31,8 @@ cloth::StretchLimit limitOf(const Json& entry) {
 
 ConstraintChoice constraintChoiceOf(const Json& entry) {
   ConstraintChoice choice;
+  if (const auto directions = entry.find("directions"); directions != entry.end() && directions->is_number())
+    return {ConstraintMethod::directions, directions->get<int>()};
   const std::string name = entry.value("constraints", methodNames[0]);
   for (std::size_t i = 0; i < methodNames.size(); ++i)
     if (name == methodNames[i]) choice.method = static_cast<ConstraintMethod>(i);
@@ -40,7 +42,8 @@ ConstraintChoice constraintChoiceOf(const Json& entry) {
 
 Json entryWith(const Json& entry, const cloth::StretchLimit& limit, const ConstraintChoice& choice) {
   Json changed = entry.is_object() ? entry : Json::object();
-  for (const char* key : {"stretch", "first", "second", "angle", "points", "constraints", "count"}) changed.erase(key);
+  for (const char* key : {"stretch", "first", "second", "angle", "points", "constraints", "count", "directions"})
+    changed.erase(key);
   if (const auto* isotropic = std::get_if<cloth::IsotropicLimit>(&limit)) {
     changed["type"] = "isotropic";
     changed["stretch"] = isotropic->stretch;
@@ -57,11 +60,13 @@ Json entryWith(const Json& entry, const cloth::StretchLimit& limit, const Constr
     changed["constraints"] = methodNames[static_cast<std::size_t>(choice.method)];
     changed["count"] = choice.count;
   }
+  if (changed["type"] != "curve" && choice.method == ConstraintMethod::directions) changed["directions"] = choice.count;
   return changed;
 }
 
 cloth::LimitConstraints constraintsOf(const cloth::StretchLimit& limit, const ConstraintChoice& choice) {
-  if (!std::holds_alternative<cloth::LimitCurve>(limit)) return cloth::exactConstraints(limit);
+  const bool curve = std::holds_alternative<cloth::LimitCurve>(limit);
+  if (!curve && choice.method != ConstraintMethod::directions) return cloth::exactConstraints(limit);
   switch (choice.method) {
     case ConstraintMethod::ellipses: return cloth::ellipseConstraints(limit, choice.count);
     case ConstraintMethod::directions: return cloth::directionConstraints(limit, choice.count);

@@ -7,7 +7,8 @@ namespace pliant::panels {
 
 using base::Json;
 
-/// How a curve is enforced: "constraints" and "count" of an entry of the scene's "stretch_limits".
+/// How a limit is enforced: "constraints" and "count" of a curve, "directions" of another entry of the scene's
+/// "stretch_limits". What is no curve is enforced exactly unless by directions.
 enum class ConstraintMethod { automatic, ellipses, directions };
 struct ConstraintChoice {
   ConstraintMethod method = ConstraintMethod::automatic;

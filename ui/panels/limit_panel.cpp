@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QListView>
 #include <QMenu>
 #include <QSignalBlocker>
 #include <QSpinBox>
@@ -224,11 +225,19 @@ void LimitPanel::refreshControls() {
   const auto& shape = editor_->shape();
   const bool free = shape && shape->kind() == LimitKind::free;
   kinds_->setEnabled(shape.has_value());
+  const QSignalBlocker blockCount(count_);
   if (shape) kinds_->setCurrentIndex(static_cast<int>(shape->kind()));
   presets_->setEnabled(!document_.isEmpty());
   mirrored_->setEnabled(free);
   mirrored_->setChecked(free && shape->symmetry() == LimitSymmetry::mirrored);
-  enforcement_->setVisible(free);
+  // All but a curve is one ellipse, and so enforced exactly unless by directions.
+  methods_->setItemText(0, free ? tr("the better of both") : tr("one ellipse, exactly"));
+  qobject_cast<QListView*>(methods_->view())->setRowHidden(1, !free);
+  if (!free && methods_->currentIndex() == 1) methods_->setCurrentIndex(0);
+  const bool directions = choice().method == ConstraintMethod::directions;
+  count_->setMinimum(directions ? 2 : 1);
+  count_->setVisible(free || directions);
+  enforcement_->setVisible(shape.has_value());
   table_->setShape(shape ? &*shape : nullptr);
   table_->setVisible(shape.has_value());
   if (!shape) return;

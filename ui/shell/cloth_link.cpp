@@ -23,7 +23,8 @@ bool hasCloth(const document::Document& document) {
   if (document.isEmpty()) return false;
   const auto& studies = document.studies();
   const scene::Json limits = document.valueAt("/stretch_limits");
-  return (limits.is_array() && !limits.empty()) || std::any_of(studies.begin(), studies.end(), panels::isClothStudy);
+  return (limits.is_array() && !limits.empty()) ||
+         std::any_of(studies.begin(), studies.end(), [](const auto& s) { return document::isClothStudy(s.type); });
 }
 
 ClothLink::ClothLink(document::Document& document, Viewport& viewport, panels::LimitPanel& limits,
@@ -60,7 +61,7 @@ ClothLink::ClothLink(document::Document& document, Viewport& viewport, panels::L
 
 void ClothLink::follow(const std::string& name) {
   const document::StudyState* study = document_.study(name);
-  if (!study || !panels::isClothStudy(*study)) return;
+  if (!study || !document::isClothStudy(study->type)) return;
   if (study_.empty() || (isUnderWay(*study) && name != study_))
     showStudy(name);
   else if (name == study_)

@@ -15,7 +15,6 @@
 #include <QStatusBar>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -310,19 +309,6 @@ void MainWindow::refreshTitle() {
 void MainWindow::setDocksVisible(bool visible) {
   for (QDockWidget* dock : docks_) dock->setVisible(visible);
   if (visible) showFittingDocks();
-}
-
-void MainWindow::showFittingDocks() {
-  const bool cloth = hasCloth(document_);
-  const auto& studies = document_.studies();
-  const bool harmonic =
-      !cloth || std::any_of(studies.begin(), studies.end(), [](const auto& s) { return !panels::isClothStudy(s); });
-  for (QDockWidget* dock : harmonicDocks_) dock->setVisible(harmonic);
-  for (QDockWidget* dock : clothDocks_) dock->setVisible(cloth);
-  docks_[1]->raise();
-  docks_[3]->raise();
-  if (cloth)
-    for (QDockWidget* dock : clothDocks_) dock->raise();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -75,6 +75,7 @@ class MainWindow final : public QMainWindow {
   void buildStatusBar();
   void connectParts();
   void makeActions();
+  void makeClothActions();
   void makeMenus();
   void makeToolBar();
   void fillStudyMenu(QMenu* menu);
@@ -86,6 +87,7 @@ class MainWindow final : public QMainWindow {
   bool save();
   bool saveAs();
   void exportShown();
+  void exportFrames();
   void keepUnsaved();
   void showScene();
   void report(base::Severity severity, const QString& sentence);

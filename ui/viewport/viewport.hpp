@@ -42,6 +42,7 @@ class Viewport : public QWidget {
   void setCloth(std::shared_ptr<const cloth::ClothProblem> problem);
   bool showsCloth() const { return view_ == &cloth_; }
   render::ClothView& clothView() { return cloth_; }
+  std::shared_ptr<const cloth::ClothProblem> clothProblem() const { return clothProblem_; }
   /// What a frame's time counts.
   enum class FrameClock { seconds, steps };
   /// All frames of the cloth. While they grow the newest is shown, unless another one was chosen.
