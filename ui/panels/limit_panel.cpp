@@ -170,6 +170,11 @@ void LimitPanel::connectParts() {
   });
 }
 
+void LimitPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  Q_EMIT limitShown(shownLimit());
+}
+
 QString LimitPanel::message() const { return message_->text(); }
 
 int LimitPanel::shownLimit() const { return limits_->currentIndex(); }
@@ -214,7 +219,12 @@ void LimitPanel::refresh(bool another) {
     const QSignalBlocker blockMethods(methods_), blockCount(count_);
     methods_->setCurrentIndex(static_cast<int>(written.method));
     count_->setValue(written.count);
-    editor_->setLimit(limitOf(entry), another);
+    try {
+      editor_->setLimit(limitOf(entry), another);
+    } catch (const base::InputError& error) {  // two points of the file in one direction, say
+      editor_->setLimit(std::nullopt);
+      editor_->setEmptyText(QString::fromStdString(error.problem()));
+    }
   }
   refreshControls();
   if (another) Q_EMIT limitShown(shownLimit());

@@ -43,8 +43,11 @@ class LimitPanel final : public QWidget {
   void importMeasured(const QString& file);
 
  Q_SIGNALS:
-  /// Another limit is shown.
+  /// Another limit is shown, or the panel is seen again.
   void limitShown(int index);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
 
  private:
   QToolButton* makeMenuButton();

@@ -104,6 +104,7 @@ void ClothLink::refresh() {
 
 /// The largest stretches of the frame on show under the limit on show.
 void ClothLink::refreshReached() {
+  if (result_ && !limits_.isVisible()) return;  // it asks again when it is shown
   const int frame = viewport_.showsCloth() ? viewport_.clothView().frame() : -1;
   if (!result_ || frame < 0 || frame >= static_cast<int>(result_->frames.size())) {
     limits_.setReached({}, {});

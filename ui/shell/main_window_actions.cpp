@@ -64,8 +64,8 @@ void MainWindow::makeActions() {
   for (const auto& [id, text, key, view] : views)
     add(id, text, "", QKeySequence(key), tr("Look from this side"),
         [this, view = view] { viewport_->setAxisView(view); });
-  QAction* stretch = add("view.stretch", "view.limitForce", "view.directions", tr("Colour by Stretch"), "", {},
-                         tr("Colour the surface by its in-plane stretch"), [] {});
+  QAction* stretch =
+      add("view.stretch", tr("Colour by Stretch"), "", {}, tr("Colour the surface by its in-plane stretch"), [] {});
   stretch->setCheckable(true);
   stretch->setChecked(true);
   connect(stretch, &QAction::toggled, viewport_, &viewport::Viewport::setFieldVisible);
