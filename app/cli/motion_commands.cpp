@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.hpp"
 #include "core/base/error.hpp"
+#include "core/scene/cloth_result.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/result_charts.hpp"
@@ -30,15 +31,20 @@ struct Moment {
   std::string caption;
 };
 
+/// Empty if there is no result.
+std::string kindOfResult(const std::filesystem::path& folder) {
+  const auto summary = folder / "summary.json";
+  if (!std::filesystem::exists(summary)) return {};
+  return scene::parseJson(scene::readTextFile(summary)).value("kind", "");
+}
+
 std::string studyWithResult(const scene::Scene& scene, const MotionOptions& options) {
   if (!options.study.empty()) return options.study;
   for (const std::string& name : scene::studyNames(scene)) {
-    const auto summary = std::filesystem::path(options.result) / name / "summary.json";
-    if (std::filesystem::exists(summary) &&
-        scene::parseJson(scene::readTextFile(summary)).value("kind", "") == "harmonic")
-      return name;
+    const std::string kind = kindOfResult(std::filesystem::path(options.result) / name);
+    if (kind == "harmonic" || kind == "cloth") return name;
   }
-  throw InputError(options.result, "This folder has no result with periodic motions of any study of the scene.");
+  throw InputError(options.result, "This folder has no result with motions of any study of the scene.");
 }
 
 /// The point of a curve where the probes together swing widest.
@@ -52,6 +58,27 @@ const harmonic::ResponsePoint& widestSwing(const scene::HarmonicResult& result) 
   for (const harmonic::ResponsePoint& point : result.points)
     if (swing(point) > swing(*widest)) widest = &point;
   return *widest;
+}
+
+void warnOfChange(const scene::Scene& scene, const scene::Result& result, const std::filesystem::path& folder) {
+  if (result.provenance.sceneHash != scene::hashScene(scene))
+    std::cerr << folder.string() << ": The scene has changed since this was computed; what has no slider is drawn as "
+              << "the scene has it now.\n";
+}
+
+/// The frame nearest to `time`, as a model that rests there.
+void takeClothFrame(const scene::Scene& scene, const std::filesystem::path& folder, double time, Moment& moment) {
+  const auto result = scene::ClothResult::read(scene, folder);
+  if (result->frames.empty()) throw InputError(folder.string(), "This result has no frames.");
+  warnOfChange(scene, *result, folder);
+  const scene::ClothFrame& frame = result->frameAt(time);
+  auto model = std::make_shared<mechanics::Model>(*result->problem->model);
+  model->restPositions = frame.positions.reshaped();
+  moment.model = std::move(model);
+  moment.caption +=
+      (moment.caption.empty() ? "" : "\n") + result->provenance.study +
+      (result->studyType() == "cloth_motion" ? ", t = " + base::formatQuantity(frame.time, base::dimensions::time)
+                                             : std::string());
 }
 
 Moment findMoment(const MotionOptions& options) {
@@ -70,11 +97,13 @@ Moment findMoment(const MotionOptions& options) {
   }
   const std::string study = studyWithResult(scene, options);
   const auto folder = std::filesystem::path(options.result) / study;
+  if (kindOfResult(folder) == "cloth") {
+    takeClothFrame(scene, folder, time, moment);
+    return moment;
+  }
   const auto result = scene::HarmonicResult::read(scene, folder);
   if (result->points.empty()) throw InputError(folder.string(), "This result has no motion.");
-  if (result->provenance.sceneHash != scene::hashScene(scene))
-    std::cerr << folder.string() << ": The scene has changed since this was computed; what has no slider is drawn as "
-              << "the scene has it now.\n";
+  warnOfChange(scene, *result, folder);
   const harmonic::ResponsePoint& point = widestSwing(*result);
   moment.model = result->problem->sharedModel();
   moment.problem = result->problemOf(point);

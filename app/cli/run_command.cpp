@@ -144,6 +144,32 @@ void printComparison(const Json& summary) {
   printCompared("  harmonics   both N", summary["samples"]);
 }
 
+void printCloth(const Json& summary) {
+  const auto number = [](const Json& value) {
+    return value.is_number() ? base::formatQuantity(value.get<double>(), {}) : std::string("none");
+  };
+  if (summary.contains("projection")) {
+    const Json& projection = summary["projection"];
+    std::cout << "  objective " << number(projection["objective"]) << ", bound " << number(projection["bound"])
+              << ", relative gap " << number(projection["relative_gap"]) << ", violation "
+              << number(projection["violation"]) << ", " << projection["iterations"] << " iterations\n";
+    for (const char* key : {"conflicting_triangles", "conflicting_pins"})
+      if (!projection[key].empty())
+        std::cout << "  " << (key + std::string("conflicting_").size())
+                  << " that contradict each other: " << projection[key].dump() << "\n";
+  }
+  if (summary.value("steps", 0) == 0) return;
+  std::cout << "  " << summary["steps"] << " steps, " << summary["newton_iterations"] << " Newton iterations ("
+            << base::formatQuantity(summary["newton_seconds_per_step"].get<double>(), dimensions::time) << " a step), "
+            << summary["projection_iterations"] << " of projections ("
+            << base::formatQuantity(summary["projection_seconds_per_step"].get<double>(), dimensions::time)
+            << " a step)\n  violation " << number(summary["violation"]) << ", relative gap "
+            << number(summary["relative_gap"]) << ", total energy " << number(summary["energy_start"]["total"])
+            << " J after the first step, " << number(summary["energy_end"]["total"]) << " J after the last\n";
+  if (summary.contains("residual"))
+    std::cout << "  unbalanced force " << number(summary["residual"]) << " of the external force\n";
+}
+
 void printSummary(const Json& summary) {
   std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
             << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
@@ -154,6 +180,7 @@ void printSummary(const Json& summary) {
   if (kind == "modes") printModes(summary);
   if (kind == "time") printTime(summary);
   if (kind == "comparison") printComparison(summary);
+  if (kind == "cloth") printCloth(summary);
 }
 
 void printExpected(const std::vector<scene::ExpectedValue>& values) {

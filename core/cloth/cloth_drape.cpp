@@ -15,7 +15,14 @@ namespace {
 /// How far apart the two parts of the unbalanced force may be, and by how much the step then changes.
 constexpr double largestImbalance = 3;
 constexpr double stepChange = 1.3;
-constexpr double shortestStep = 1e-5, longestStep = 1e4;
+constexpr double shortestStep = 1e-5;
+/// Steps from one change to the next where there are limits: the method converges for any h, but not for any sequence.
+constexpr int stepsBetweenChanges = 3;
+/// Where the energy is not convex (a sheet that crumples), the method may circle unless h is small enough: h is bounded
+/// by less wherever the residual has not fallen by this factor in so many steps.
+constexpr double progressFactor = 0.9;
+constexpr int patience = 150;
+constexpr double boundChange = 1.6;
 
 /// Norm over the nodes that are not held.
 double freeNorm(const Eigen::Matrix3Xd& forces, const std::vector<char>& held) {
@@ -103,8 +110,20 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     const Vector motion = masses.cwiseProduct((next - positions_).reshaped()) / (h * h);
     const auto norm = [&](const Vector& force) { return freeNorm(force.reshaped(3, nodes), sheet_.fixed); };
     residual_ = norm(unbalanced) / std::max(norm(external), std::numeric_limits<double>::min());
-    if (norm(splitting) > largestImbalance * norm(motion)) timeStep_ = std::max(shortestStep, h / stepChange);
-    if (norm(motion) > largestImbalance * norm(splitting)) timeStep_ = std::min(longestStep, h * stepChange);
+    if (++sinceChange_ >= (limiter_ ? stepsBetweenChanges : 1)) {
+      sinceChange_ = 0;
+      if (norm(splitting) > largestImbalance * norm(motion)) timeStep_ = std::max(shortestStep, h / stepChange);
+      if (norm(motion) > largestImbalance * norm(splitting)) timeStep_ = h * stepChange;
+    }
+    if (residual_ < progressFactor * bestResidual_) {
+      bestResidual_ = residual_;
+      sinceProgress_ = 0;
+    } else if (limiter_ && ++sinceProgress_ >= patience) {
+      longestStep_ = h / boundChange;
+      bestResidual_ = residual_;
+      sinceProgress_ = 0;
+    }
+    timeStep_ = std::clamp(timeStep_, shortestStep, std::max(shortestStep, longestStep_));
     positions_ = next;
     limitForces_ = forces;
   }

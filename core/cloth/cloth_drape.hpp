@@ -28,7 +28,8 @@ struct DrapeRecord {
 /// method of multipliers; Gabay & Mercier 1976, Boyd et al. 2011). Stepping and projecting alone ends where the elastic
 /// force of the *candidate* balances the limits, which is no equilibrium unless h is tiny; this ends at one for any h,
 /// and h only decides how fast: it is adapted so that the two parts of the unbalanced force,
-/// ∇E(x_{k+1}) - ∇E(x̃) and M (x_{k+1} - x_k) / h², stay alike. The projection is by mass.
+/// ∇E(x_{k+1}) - ∇E(x̃) and M (x_{k+1} - x_k) / h², stay alike, but not
+/// in every step, lest it never settle. The projection is by mass.
 class ClothDrape {
  public:
   /// Starts from the rest positions. Throws base::InputError as ClothSimulation does.
@@ -52,6 +53,10 @@ class ClothDrape {
   std::unique_ptr<StrainLimiter> limiter_;
   Eigen::Matrix3Xd positions_, limitForces_;
   double timeStep_;
+  double longestStep_ = 1e4;
+  int sinceChange_ = 0;  ///< steps since h was changed
+  double bestResidual_ = std::numeric_limits<double>::infinity();
+  int sinceProgress_ = 0;  ///< steps since that was reached
   double residual_ = std::numeric_limits<double>::infinity();
 };
 

@@ -69,7 +69,9 @@ using LimiterFactory = std::function<std::unique_ptr<StrainLimiter>(const SheetC
 ///  - bdf2AndProject: BDF-2 in place of Euler, with v₁ = (3x₁ - 4x₀ + x₋₁)/(2h) (English & Bridson 2008). Of second
 ///    order for smooth motion along the limits.
 ///  - bdf2AndReflect: BDF-2 over both half steps. A reflection by 2(x - x̃) moves all positions from which the second
-///    half step differentiates, or else its velocities would be off by the reflection over h, to first order.
+///    half step differentiates, or else its velocities would be off by the reflection over h, to first order; the next
+///    step differentiates from the projected middle x. (Other choices, among them Algorithm 1 with BDF-2 put in place
+///    of Euler as the thesis describes, blow up within half a second on the sheet of Fig. 3.4.)
 ///  - secondOrderReflect: x̃ = I_{h/2}(x₀, v₀), x = P(x̃), v = (x - x₀)/(h/2): elastic and limit forces as an implicit
 ///    midpoint rule has them. Reflection about this midpoint, x̂ = 2x - x₀, v̂ = 2v - v₀, applies the same forces once
 ///    more, and x₁ = P(x̂), v₁ = v̂ + (x₁ - x̂)/(h/2). That reflection and implicit midpoint are one is what Narain,

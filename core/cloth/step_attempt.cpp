@@ -91,7 +91,7 @@ bool ClothSimulation::stepReflected(Attempt& attempt) {
   if (!attempt.advance(second, reflected, 1, x1) || !attempt.project(x1)) return false;
   attempt.next.positions = asPoints(x1);
   attempt.next.velocities = asPoints(second.rate * (x1 - second.base));
-  attempt.next.earlierPositions = asPoints(reflected);
+  attempt.next.earlierPositions = asPoints(middle);
   attempt.next.earlierVelocities = asPoints(velocity);
   return true;
 }

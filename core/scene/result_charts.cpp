@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -51,11 +53,14 @@ class Table {
     for (const auto& row : rows_) result.emplace_back(row[indexOf(column)]);
     return result;
   }
-  std::vector<double> numbers(std::string_view column, double factor) const {
+  /// `ifEmpty` stands for cells that are empty, which are an error where it is not a number.
+  std::vector<double> numbers(std::string_view column, double factor,
+                              double ifEmpty = std::numeric_limits<double>::quiet_NaN()) const {
     std::vector<double> result;
     for (const auto& row : rows_) {
+      const std::string_view cell = row[indexOf(column)];
       try {
-        result.push_back(factor * csvNumber(row[indexOf(column)]));
+        result.push_back(cell.empty() && std::isfinite(ifEmpty) ? ifEmpty : factor * csvNumber(cell));
       } catch (const InputError& error) {
         throw InputError(file_.string(), error.problem());
       }
@@ -222,6 +227,53 @@ std::vector<ResultChart> comparisonCharts(const std::vector<Found>& comparisons)
   return {harmonics, samples};
 }
 
+/// Without what a logarithmic axis cannot show.
+ResultSeries positivePart(ResultSeries series) {
+  ResultSeries kept{series.name, series.mark, {}, {}, series.group};
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    if (series.y[i] > 0) {
+      kept.x.push_back(series.x[i]);
+      kept.y.push_back(series.y[i]);
+    }
+  return kept;
+}
+
+/// Energy over time of motions (thesis Fig. 3.4), in its parts where there is one alone; drapes over their steps; and
+/// how well limits were kept.
+std::vector<ResultChart> clothCharts(const std::vector<Found>& cloths) {
+  ResultChart energy{"Energy", "Time [s]", "Energy [mJ]", false, false, {}};
+  ResultChart drape{"Unbalanced force", "Step", "Over the external force", false, true, {}};
+  ResultChart limits{"How well limits are kept", "Time [s] or step", "Violation, relative gap", false, true, {}};
+  int group = 0;
+  for (const Found& found : cloths) {
+    const Table table(found.folder / "steps.csv");
+    const std::vector<double> time = table.numbers("time [s]", 1);
+    const auto add = [&](ResultChart& chart, const std::string& name, std::string_view column, double factor,
+                         Mark mark) {
+      ResultSeries series{name, mark, time, table.numbers(column, factor, 0), group};
+      if (chart.logarithmicY) series = positivePart(std::move(series));
+      if (!series.x.empty()) chart.series.push_back(std::move(series));
+    };
+    const bool isDrape = found.summary.at("type") == "cloth_drape";
+    if (isDrape)
+      add(drape, found.study, "residual", 1, Mark::line);
+    else
+      add(energy, found.study + ", total", "total [J]", 1e3, Mark::line);
+    add(limits, found.study + ", violation", "violation", 1, Mark::line);
+    add(limits, found.study + ", relative gap", "relative gap", 1, Mark::dashedLine);
+    ++group;
+    if (cloths.size() == 1 && !isDrape)
+      for (const std::string part : {"kinetic", "membrane", "bending", "gravity"}) {
+        add(energy, part, part + " [J]", 1e3, Mark::line);
+        ++group;
+      }
+  }
+  std::vector<ResultChart> charts;
+  for (ResultChart* chart : {&energy, &drape, &limits})
+    if (!chart->series.empty()) charts.push_back(std::move(*chart));
+  return charts;
+}
+
 }  // namespace
 
 std::vector<std::string> responseQuantities() {
@@ -238,10 +290,12 @@ std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem:
   std::vector<ResultChart> charts;
   try {
     ResponseChart response(scene, *chosen);
-    std::vector<Found> comparisons;
+    std::vector<Found> comparisons, cloths;
     for (const Found& found : findResults(scene, folder, studies)) {
       if (found.kind() == "comparison")
         comparisons.push_back(found);
+      else if (found.kind() == "cloth" && found.summary.value("steps", 0) > 0)
+        cloths.push_back(found);
       else if (found.kind() == "harmonic" || found.kind() == "time")
         response.add(found);
       else if (!studies.empty())
@@ -250,6 +304,7 @@ std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem:
     if (ResultChart chart = response.take(); !chart.series.empty()) charts.push_back(std::move(chart));
     if (!comparisons.empty())
       for (ResultChart& chart : comparisonCharts(comparisons)) charts.push_back(std::move(chart));
+    for (ResultChart& chart : clothCharts(cloths)) charts.push_back(std::move(chart));
   } catch (const Json::exception&) {
     throw InputError(folder.string(), "A result in this folder lacks what a chart needs; run its study again.");
   }

@@ -65,4 +65,30 @@ void certify(const ConeConstraints& constraints, const Eigen::Matrix3Xd& candida
   solution.complementarity = solution.objective > 0 ? complementarity / solution.objective : 0;
 }
 
+Eigen::Matrix3Xd limitForces(const ConeConstraints& constraints, const ConeSolution& solution) {
+  Eigen::Matrix3Xd forces = Eigen::Matrix3Xd::Zero(3, constraints.nodeCount);
+  for (std::size_t e = 0; e < constraints.elements.size(); ++e) {
+    const ConeElement& element = constraints.elements[e];
+    const auto m = solution.multipliers.col(static_cast<Eigen::Index>(e));
+    const Eigen::Matrix2d multiplier{{m[0], m[2]}, {m[2], m[1]}};
+    Eigen::Matrix<double, 3, 2> f = Eigen::Matrix<double, 3, 2>::Zero();
+    for (int k = 0; k < 3; ++k) f += solution.positions.col(element.nodes[k]) * element.weights[k].transpose();
+    for (int k = 0; k < 3; ++k) forces.col(element.nodes[k]) += f * (multiplier * element.weights[k]);
+  }
+  return forces;
+}
+
+double provenDistance(const ConeConstraints& constraints, const Eigen::Matrix3Xd& candidate,
+                      const ConeSolution& solution) {
+  // D(t) = t a - ½ t² ‖BᵀU‖²_{M⁻¹} for the multiple t; certify tells D(1) = P - gap, whence a.
+  ConeSolution checked = solution;
+  certify(constraints, candidate, checked);
+  const Eigen::Matrix3Xd forces = limitForces(constraints, checked);
+  double squared = 0;
+  for (int node = 0; node < constraints.nodeCount; ++node)
+    if (!constraints.fixed[node]) squared += forces.col(node).squaredNorm() / constraints.masses[node];
+  const double gain = checked.bound + 0.5 * squared;
+  return gain > 0 ? gain * gain / (2 * squared) : 0;
+}
+
 }  // namespace pliant::solvers

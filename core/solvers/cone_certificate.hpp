@@ -11,4 +11,12 @@ namespace pliant::solvers {
 /// the elements' multipliers of `solution` from its positions and the multipliers of its bounds.
 void certify(const ConeConstraints& constraints, const Eigen::Matrix3Xd& candidate, ConeSolution& solution);
 
+/// Σ (F Λ) w of every node, with the multipliers of the elements (3 x nodes).
+Eigen::Matrix3Xd limitForces(const ConeConstraints& constraints, const ConeSolution& solution);
+
+/// The largest bound D [kg m²] that multiples of the solution's multipliers prove. Unlimited values are proof that
+/// nothing keeps the bounds (Farkas).
+double provenDistance(const ConeConstraints& constraints, const Eigen::Matrix3Xd& candidate,
+                      const ConeSolution& solution);
+
 }  // namespace pliant::solvers

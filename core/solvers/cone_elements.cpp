@@ -167,6 +167,18 @@ void ConeElements::scatter(const Group& group, const Packet (&nodeForces)[3][3],
     }
 }
 
+void ConeElements::addLaplacian(double stiffness, const Positions& x, Positions& forces,
+                                math::BlockCholesky& cholesky) const {
+  const Packet none[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  for (const Group& group : groups_) {
+    const SymmetricPacket multiplier{stiffness, stiffness, 0.0};
+    Packet nodeForces[3][3];
+    addForce(group, mapOf(group, x), multiplier, nodeForces);
+    scatter(group, nodeForces, forces);
+    assemble(group, multiplier, none, cholesky);
+  }
+}
+
 void ConeElements::start(const Positions& x, double barrier, bool keep) {
   for (Group& group : groups_) {
     const SymmetricPacket metric = mapOf(group, x).metric();
@@ -355,9 +367,9 @@ void ConeElements::clearCorrection() {
   for (Direction& cone : directions_) cone.h = cone.y = 0.0;
 }
 
-void ConeElements::correct(double target, Positions& forces) {
+void ConeElements::correct(double target, double weight, Positions& forces) {
   for (Group& group : groups_) {
-    const SymmetricPacket change = 0.5 * group.df.metric();
+    const SymmetricPacket change = 0.5 * weight * group.df.metric();
     const Bounds& bounds = bounds_[group.bounds];
     SymmetricPacket own{0.0, 0.0, 0.0}, product = own;
     for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
@@ -365,7 +377,7 @@ void ConeElements::correct(double target, Positions& forces) {
       const SymmetricPacket& t = bounds.scalings[k];
       cone.h = congruence(t, change);
       const SymmetricPacket scaledProduct =
-          symmetricProduct(congruence(cone.inverseG, cone.ds), congruence(cone.g, cone.dl));
+          weight * symmetricProduct(congruence(cone.inverseG, cone.ds), congruence(cone.g, cone.dl));
       const SymmetricPacket right{target - scaledProduct.a, target - scaledProduct.b, -scaledProduct.c};
       cone.y = congruence(cone.inverseG, solveSymmetricProduct(cone.v, right));
       own += congruence(t, congruence(cone.u, cone.r + cone.h) + cone.y);
@@ -375,13 +387,13 @@ void ConeElements::correct(double target, Positions& forces) {
       Direction& cone = directions_[group.firstDirection + k];
       const std::array<double, 2>& v = bounds.directions[k];
       cone.h = along(change, v);
-      cone.y = (target - cone.ds * cone.dl) / cone.s;
+      cone.y = (target - weight * cone.ds * cone.dl) / cone.s;
       own += scaledOuter(cone.l / cone.s * (cone.r + cone.h) + cone.y, v);
       product += scaledOuter(cone.dl, v);
     }
     Packet nodeForces[3][3];
     addForce(group, group.f, own, nodeForces);
-    addForce(group, group.df, product, nodeForces);
+    addForce(group, group.df, weight * product, nodeForces);
     scatter(group, nodeForces, forces);
   }
 }

@@ -28,6 +28,9 @@ class ConeElements {
 
   int boundCount() const { return boundCount_; }  ///< the sum of their orders: 2 an ellipse, 1 a direction
 
+  /// Adds Σ w (stiffness I) w to `cholesky`, and its product with x to `forces`.
+  void addLaplacian(double stiffness, const Positions& x, Positions& forces, math::BlockCholesky& cholesky) const;
+
   /// S near what x leaves, but well inside; Λ = barrier S⁻¹, plus the multipliers there were if `keep`.
   void start(const Positions& x, double barrier, bool keep);
 
@@ -50,8 +53,9 @@ class ConeElements {
   /// Σ ⟨Λ + α dΛ, S + α dS⟩.
   double complementarityAfter(double step) const;
   void clearCorrection();  ///< h = 0, Y = 0
-  /// h and Y from the last direction; adds Σ F (U (r + h) U + Y) w + dF̃ dΛ̃ w to `forces`.
-  void correct(double target, Positions& forces);
+  /// h and Y from the last direction, whose products count `weight` times (1, or 0: the direction does not matter);
+  /// adds Σ F (U (r + h) U + Y) w + dF̃ dΛ̃ w to `forces`.
+  void correct(double target, double weight, Positions& forces);
   void keepDirection();
   void restoreDirection();
   void advance(double step);

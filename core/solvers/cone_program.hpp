@@ -34,13 +34,14 @@ struct ConeConstraints {
 };
 
 struct ConeProgramOptions {
-  double relativeGap = 1e-8;  ///< of the duality gap, relative to the objective
+  double relativeGap = 1e-8;  ///< the duality gap relative to the objective, and the dual residual
   /// The duality gap at which a problem counts as solved however small its objective is, relative to the total mass
   /// times the squared size of the model.
   double absoluteGap = 1e-16;
   double violation = 1e-9;  ///< of a limit: largest stretch - 1
   int maximumIterations = 100;
-  bool warmStart = true;  ///< from the multipliers of the last solution
+  bool warmStart = true;       ///< from the multipliers of the last solution
+  bool explainFailure = true;  ///< where it stalls, to find out whether the limits can be kept at all
 };
 
 /// The optimum with what proves it.
