@@ -120,6 +120,8 @@ struct ClothView::Parts {
       bounds.add(layout.rest);
       for (const cloth::Body& body : problem->bodies) bounds.add(body.points);
       figure.setMassRadii(layout, layout.massRadii(*problem->model));
+      const mechanics::Vector& gravity = problem->model->gravity;
+      stage.camera().setUpAxis(gravity.size() == 3 && -gravity[1] > std::abs(gravity[2]));
     }
     stage.camera().setReach(bounds.corners());
     showFrame();

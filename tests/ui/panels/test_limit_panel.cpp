@@ -121,7 +121,7 @@ class TestLimitPanel : public QObject {
     QCOMPARE(document.undoStack().count(), 1);
     const Json entry = document.valueAt("/stretch_limits/1");
     QVERIFY(std::abs(entry["points"][1]["stretch"].get<double>() - 1.10) < 0.003);
-    QVERIFY(entry["name"] == "bias" && entry["group"] == "end");
+    QVERIFY(entry["name"] == "bias" && entry["element"] == "patch");
     QVERIFY(document.model() == model);  // limits are no part of it
     document.undoStack().undo();
     QCOMPARE(cloth::stretchAt(editor.shape()->limit(), 45 * degree), 1.17);

@@ -49,6 +49,7 @@ class TestClothView : public QObject {
   void pinsAreSeenAsLongAsTheyHold();
   void framesMayGrow();
   void everythingThatIsReachedIsInTheFrame();
+  void gravitySaysWhatIsUp();
   void whatIsPickedIsANode();
   void largestStretchIsFoundOfEveryKind();
 };
@@ -115,6 +116,26 @@ void TestClothView::everythingThatIsReachedIsInTheFrame() {
     QVERIFY(blob.pixels > 3000);
     QVERIFY(blob.top > 2 && blob.bottom < image.height - 2 && blob.left > 2);
   }
+}
+
+void TestClothView::gravitySaysWhatIsUp() {
+  const HangingSheet sheet;
+  const auto pinHeight = [&](const Eigen::Vector3d& gravity) {
+    auto model = std::make_shared<mechanics::Model>(*sheet.problem->model);
+    model->gravity = gravity;
+    auto problem = std::make_shared<cloth::ClothProblem>(*sheet.problem);
+    problem->model = model;
+    problem->pins = {{"far", {16 * 17 + 8}, {}, {}}};  // in the middle of the edge at the largest y
+    problem->bodies.clear();
+    PictureOptions options;
+    options.width = 480;
+    options.height = 320;
+    options.view = AxisView::front;
+    return findBlob(renderToImage(problem, {}, options), isPin).y;
+  };
+  // The sheet lies in the plane z = 0: from the front it is a line, or, where y is up, a square with that edge on top.
+  QVERIFY(std::abs(pinHeight({0, 0, -9.81}) - 160) < 12);
+  QVERIFY(pinHeight({0, -9.81, 0}) < 60);
 }
 
 void TestClothView::whatIsPickedIsANode() {
