@@ -25,10 +25,13 @@ PlotLine overTime(const ClothRun& run, const QString& name, int group,
   return line;
 }
 
-QString timeLabel() { return QObject::tr("Time  [s]"); }
+/// A drape counts its steps.
+QString timeLabel(const std::vector<ClothRun>& runs) {
+  return !runs.empty() && runs[0].countsSteps ? QObject::tr("Step") : QObject::tr("Time  [s]");
+}
 
 LineChart totalEnergies(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Total energy  [J]"), false, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Total energy  [J]"), false, {}};
   for (const ClothRun& run : runs)
     chart.lines.push_back(
         overTime(run, run.name, run.group, [](const ClothStepRecord& step) { return step.energies.total(); }));
@@ -36,7 +39,7 @@ LineChart totalEnergies(const std::vector<ClothRun>& runs) {
 }
 
 LineChart energyParts(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Energy  [J]"), false, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Energy  [J]"), false, {}};
   const std::pair<QString, double cloth::Energies::*> parts[] = {
       {QObject::tr("kinetic"), &cloth::Energies::kinetic}, {QObject::tr("membrane"), &cloth::Energies::membrane},
       {QObject::tr("bending"), &cloth::Energies::bending}, {QObject::tr("gravity"), &cloth::Energies::gravity},
@@ -55,7 +58,7 @@ LineChart energyParts(const std::vector<ClothRun>& runs) {
 }
 
 LineChart violations(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Stretch over limit − 1"), true, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Stretch over limit − 1"), true, {}};
   for (const ClothRun& run : runs)
     chart.lines.push_back(
         overTime(run, run.name, run.group, [](const ClothStepRecord& step) { return step.violation; }));
@@ -63,7 +66,7 @@ LineChart violations(const std::vector<ClothRun>& runs) {
 }
 
 LineChart projectionGaps(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Relative gap, violation"), true, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Relative gap, violation"), true, {}};
   if (runs.empty()) return chart;
   chart.lines = {
       overTime(runs[0], QObject::tr("relative gap"), 0, [](const ClothStepRecord& step) { return step.relativeGap; }),
@@ -72,7 +75,7 @@ LineChart projectionGaps(const std::vector<ClothRun>& runs) {
 }
 
 LineChart iterations(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Iterations in a step"), false, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Iterations in a step"), false, {}};
   if (runs.empty()) return chart;
   chart.lines = {overTime(runs[0], QObject::tr("projection"), 0,
                           [](const ClothStepRecord& step) { return double(step.projectionIterations); }),
@@ -96,7 +99,7 @@ LineChart lastProjection(const std::vector<ClothRun>& runs) {
 }
 
 LineChart distances(const std::vector<ClothRun>& runs) {
-  LineChart chart{timeLabel(), QObject::tr("Smallest distance  [mm]"), false, {}};
+  LineChart chart{timeLabel(runs), QObject::tr("Smallest distance  [mm]"), false, {}};
   for (const ClothRun& run : runs)
     chart.lines.push_back(
         overTime(run, run.name, run.group, [](const ClothStepRecord& step) { return 1e3 * step.smallestGap; }));

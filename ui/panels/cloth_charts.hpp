@@ -12,7 +12,8 @@ namespace pliant::panels {
 struct ClothRun {
   QString name;
   std::shared_ptr<const scene::ClothResult> result;
-  int group = 0;  ///< its colour, wherever it stands
+  int group = 0;             ///< its colour, wherever it stands
+  bool countsSteps = false;  ///< rather than seconds: a drape
 };
 
 /// A chart of one or several runs.

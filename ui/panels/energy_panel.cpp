@@ -20,8 +20,8 @@ std::vector<ClothRun> clothRuns(const document::Document& document, const std::s
     if (!document::isClothStudy(study.type)) continue;
     ++group;
     if (!study.result || study.result->kind() != "cloth") continue;
-    ClothRun run{
-        QString::fromStdString(study.name), std::static_pointer_cast<const scene::ClothResult>(study.result), group};
+    ClothRun run{QString::fromStdString(study.name), std::static_pointer_cast<const scene::ClothResult>(study.result),
+                 group, study.type != "cloth_motion"};
     if (run.result->steps.empty()) continue;
     runs.insert(study.name == first ? runs.begin() : runs.end(), std::move(run));
   }

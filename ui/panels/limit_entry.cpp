@@ -64,6 +64,17 @@ Json entryWith(const Json& entry, const cloth::StretchLimit& limit, const Constr
   return changed;
 }
 
+Json newEntry(const Json& elements) {
+  Json entry{{"name", "limit"}};
+  for (const Json& element : elements) {
+    const std::string type = element.value("type", "");
+    if (elements.size() < 2 || (type != "shell" && type != "membrane")) continue;
+    entry["element"] = element["name"];
+    break;
+  }
+  return entry;
+}
+
 cloth::LimitConstraints constraintsOf(const cloth::StretchLimit& limit, const ConstraintChoice& choice) {
   const bool curve = std::holds_alternative<cloth::LimitCurve>(limit);
   if (!curve && choice.method != ConstraintMethod::directions) return cloth::exactConstraints(limit);

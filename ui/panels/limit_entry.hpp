@@ -24,6 +24,10 @@ ConstraintChoice constraintChoiceOf(const Json& entry);
 /// stays. Angles are written in degrees.
 Json entryWith(const Json& entry, const cloth::StretchLimit& limit, const ConstraintChoice& choice);
 
+/// A new entry, without a limit, for the first sheet among the scene's elements; which one that is has to be said only
+/// where there are several.
+Json newEntry(const Json& elements);
+
 /// What enforces the limit. Throws base::InputError (location empty) for a count that is out of range.
 cloth::LimitConstraints constraintsOf(const cloth::StretchLimit& limit, const ConstraintChoice& choice);
 

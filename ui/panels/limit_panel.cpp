@@ -267,7 +267,8 @@ void LimitPanel::write(const QString& text, int mergeId) {
   const int index = shownLimit();
   bool taken = false;
   if (index < 0) {
-    taken = document_.setValue(limitList, Json::array({entryWith({{"name", "limit"}}, limit, choice())}), text);
+    taken = document_.setValue(
+        limitList, Json::array({entryWith(newEntry(document_.valueAt("/elements")), limit, choice())}), text);
   } else {
     const Json& written = document_.scene().json().at(Json::json_pointer(pointerOf(index)));
     taken = document_.setValue(pointerOf(index), entryWith(written, limit, choice()), text, mergeId);

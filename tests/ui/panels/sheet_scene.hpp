@@ -1,7 +1,7 @@
 #pragma once
 
-/// A sheet of fabric that hangs from two corners and a patch from one, each with a stretch limit, a study of cloth that swings it for a
-/// fifth of a second by two methods, and linear modes.
+/// A sheet of fabric that hangs from two corners and a patch from one, each with a stretch limit, a study of cloth that
+/// swings it for a fifth of a second by two methods, and linear modes.
 inline constexpr char sheetScene[] = R"json({
   "schema_version": 1,
   "title": "Small sheet",
