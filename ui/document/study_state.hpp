@@ -24,7 +24,7 @@ struct StudyState {
   std::optional<scene::Scene> solvedScene;      ///< what `result` was computed from
 };
 
-/// Whether both scenes pose the same problem: everything but names, texts and studies is equal.
+/// Whether both scenes have the same model: everything is equal but texts, studies, and what only cloth reads.
 bool sameModel(const scene::Scene& a, const scene::Scene& b);
 
 /// The same of normalised scenes.
@@ -35,6 +35,9 @@ bool mattersToModel(const std::string& pointer);
 
 /// Whether a study of this name gives the same result in both scenes.
 bool sameStudy(const scene::Scene& a, const scene::Scene& b, const std::string& study);
+
+/// Whether a study of this type is one of a cloth.
+bool isClothStudy(const std::string& type);
 
 /// "not run", "waiting", "running", "solved", "stale", "cancelled", "failed".
 QString toString(StudyStatus status);

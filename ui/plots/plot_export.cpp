@@ -1,6 +1,9 @@
 #include "ui/plots/plot_export.hpp"
 
 #include <QFileInfo>
+#include <QImage>
+#include <QPainter>
+#include <QPdfWriter>
 #include <QSaveFile>
 #include <QSvgGenerator>
 
@@ -28,6 +31,23 @@ void writeSvg(QCustomPlot& plot, const QString& file) {
   painter.end();
 }
 
+void writeText(const QString& file, const QString& text) {
+  QSaveFile out(file);
+  if (!out.open(QIODevice::WriteOnly) || out.write(text.toUtf8()) < 0 || !out.commit()) cannotWrite(file);
+}
+
+[[noreturn]] void unknownType(const QString& file) {
+  throw base::InputError(file.toStdString(), "The file's name must end in .pdf, .svg, .png or .csv.");
+}
+
+/// Paints onto something that paints into `file`.
+void paintInto(QPaintDevice& device, const QString& file, const std::function<void(QPainter&)>& paint) {
+  QPainter painter;
+  if (!painter.begin(&device)) cannotWrite(file);
+  paint(painter);
+  painter.end();
+}
+
 }  // namespace
 
 QString plotExportFilters() {
@@ -37,8 +57,7 @@ QString plotExportFilters() {
 void exportPlot(QCustomPlot& plot, const QString& file, const std::function<QString()>& csv) {
   const QString type = QFileInfo(file).suffix().toLower();
   if (type == "csv") {
-    QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly) || out.write(csv().toUtf8()) < 0 || !out.commit()) cannotWrite(file);
+    writeText(file, csv());
   } else if (type == "svg") {
     writeSvg(plot, file);
   } else if (type == "pdf") {
@@ -46,7 +65,35 @@ void exportPlot(QCustomPlot& plot, const QString& file, const std::function<QStr
   } else if (type == "png") {
     if (!plot.savePng(file, 0, 0, 2.0)) cannotWrite(file);
   } else {
-    throw base::InputError(file.toStdString(), "The file's name must end in .pdf, .svg, .png or .csv.");
+    unknownType(file);
+  }
+}
+
+void exportPainting(QSize size, const QString& file, const std::function<void(QPainter&)>& paint,
+                    const std::function<QString()>& csv) {
+  constexpr double sharpness = 2;  // of a PNG, as of other plots
+  const QString type = QFileInfo(file).suffix().toLower();
+  if (type == "csv") {
+    writeText(file, csv());
+  } else if (type == "svg") {
+    QSvgGenerator generator;
+    generator.setFileName(file);
+    generator.setSize(size);
+    generator.setViewBox(QRect(QPoint(0, 0), size));
+    paintInto(generator, file, paint);
+  } else if (type == "pdf") {
+    QPdfWriter writer(file);
+    writer.setResolution(96);  // a pixel on paper is what it is on the screen
+    writer.setPageSize(QPageSize(QSizeF(size) * 0.75, QPageSize::Point));
+    writer.setPageMargins(QMarginsF());
+    paintInto(writer, file, paint);
+  } else if (type == "png") {
+    QImage image(size * sharpness, QImage::Format_RGB32);
+    image.setDevicePixelRatio(sharpness);
+    paintInto(image, file, paint);
+    if (!image.save(file)) cannotWrite(file);
+  } else {
+    unknownType(file);
   }
 }
 

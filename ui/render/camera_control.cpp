@@ -47,7 +47,12 @@ void CameraControl::setReach(Points reach) {
 
 void CameraControl::setAxisView(AxisView view) {
   vtkCamera* camera = renderer_->GetActiveCamera();
-  const auto [from, up] = direction(view);
+  auto [from, up] = direction(view);
+  if (upIsY_) {
+    // Turned about x, so that what was along z is along y.
+    from = Eigen::Vector3d(from.x(), from.z(), -from.y());
+    up = Eigen::Vector3d(up.x(), up.z(), -up.y());
+  }
   const Eigen::Vector3d position = vectorOf(camera->GetFocalPoint()) + camera->GetDistance() * from.normalized();
   camera->SetPosition(position.data());
   camera->SetViewUp(up.data());

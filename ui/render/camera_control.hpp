@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "ui/render/motion_view.hpp"
 #include "ui/render/primitives.hpp"
+#include "ui/render/view.hpp"
 
 namespace pliant::render {
 
@@ -19,6 +19,8 @@ class CameraControl {
   /// Leaves this many pixels free on the right when fitting.
   void setRightMargin(double pixels) { rightMargin_ = pixels; }
 
+  /// Which axis points up: z, or y where gravity pulls against it. Counts from the next axis view on.
+  void setUpAxis(bool isY) { upIsY_ = isY; }
   void setAxisView(AxisView view);
   void fit();
   void orbit(double dx, double dy);
@@ -35,6 +37,7 @@ class CameraControl {
   vtkRenderer* renderer_;
   Points reach_;
   double rightMargin_ = 0;
+  bool upIsY_ = false;
 };
 
 }  // namespace pliant::render

@@ -22,16 +22,25 @@ constexpr int stripCells = 128;
 constexpr double stripWidth = 14, margin = 16, labelWidth = 52, tickLength = 4;
 
 /// "%" from a hundredth on, else a power of a thousand.
-struct Scale {
+struct Factor {
   double factor;
   std::string unit;
 };
 
-Scale scaleFor(double largest) {
+Factor strainFactor(double largest) {
   if (largest >= 1e-2 || largest <= 0) return {1e2, "%"};
   static constexpr std::array<const char*, 4> powers{"10⁻³", "10⁻⁶", "10⁻⁹", "10⁻¹²"};
   const int power = std::clamp(static_cast<int>(std::ceil(-std::log10(largest) / 3.0 - 1e-9)), 1, 4);
   return {std::pow(10.0, 3 * power), powers[power - 1]};
+}
+
+/// A power of a thousand before `unit`, if numbers would be long without.
+Factor plainFactor(double largest, const std::string& unit) {
+  if (!(largest > 0) || (largest >= 1e-2 && largest < 1e4)) return {1, unit};
+  static constexpr std::array<const char*, 9> powers{"10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "", "10³", "10⁶", "10⁹", "10¹²"};
+  const int power = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -4, 4);
+  const std::string prefix = powers[static_cast<std::size_t>(power + 4)];
+  return {std::pow(10.0, -3 * power), unit.empty() || prefix.empty() ? prefix + unit : prefix + " " + unit};
 }
 
 }  // namespace
@@ -59,6 +68,13 @@ void Legend::setVisible(bool visible) {
   frameActor_->SetVisibility(visible);
   title_->SetVisibility(visible);
   for (std::size_t i = 0; i < labels_.size(); ++i) labels_[i]->SetVisibility(visible && i < ticks_.size());
+}
+
+void Legend::setQuantity(const std::string& name, Scale scale, const std::string& unit) {
+  name_ = name;
+  scale_ = scale;
+  unit_ = unit;
+  updateTicks();
 }
 
 void Legend::setRange(double minimum, double maximum) {
@@ -89,8 +105,9 @@ void Legend::setPixelRatio(double ratio) {
 void Legend::updateTicks() {
   ticks_ = roundNumbers(minimum_, maximum_, 5);
   if (ticks_.size() > labels_.size()) ticks_.resize(labels_.size());
-  const auto [factor, unit] = scaleFor(std::max(std::abs(minimum_), std::abs(maximum_)));
-  title_->SetInput(("stretch λ₁ − 1\n[" + unit + "]").c_str());
+  const double largest = std::max(std::abs(minimum_), std::abs(maximum_));
+  const auto [factor, unit] = scale_ == Scale::strain ? strainFactor(largest) : plainFactor(largest, unit_);
+  title_->SetInput((unit.empty() ? name_ : name_ + "\n[" + unit + "]").c_str());
   const double step = ticks_.size() > 1 ? factor * (ticks_[1] - ticks_[0]) : 1.0;
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
   for (std::size_t i = 0; i < ticks_.size(); ++i) {

@@ -24,6 +24,10 @@ class Legend {
   Legend();
   void addTo(vtkRenderer* renderer);
   void setVisible(bool visible);
+  /// What the numbers are. A strain is shown in % or parts of it; anything else as it is, in thousands or thousandths
+  /// of its unit if it is large or small. `name` stands above the strip, `unit` below it (a strain has its own).
+  enum class Scale { strain, plain };
+  void setQuantity(const std::string& name, Scale scale, const std::string& unit);
   void setRange(double minimum, double maximum);
   void setTable(vtkLookupTable* table);
   void setTheme(const Palette& palette);
@@ -36,6 +40,9 @@ class Legend {
 
   void updateTicks();
 
+  std::string name_ = "stretch λ₁ − 1";
+  Scale scale_ = Scale::strain;
+  std::string unit_;
   double minimum_ = 0, maximum_ = 1;
   double ratio_ = 1;
   bool visible_ = true;

@@ -1,34 +1,20 @@
 #include "ui/render/motion_view.hpp"
 
-#include <SMP/Common/vtkSMPToolsAPI.h>
-#include <vtkCamera.h>
-#include <vtkCommand.h>
-#include <vtkCullerCollection.h>
-#include <vtkLight.h>
-#include <vtkRenderWindow.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
-
 #include <algorithm>
 #include <numbers>
 
 #include "core/mechanics/strain.hpp"
-#include "ui/render/camera_control.hpp"
 #include "ui/render/color_map.hpp"
 #include "ui/render/figure.hpp"
-#include "ui/render/gizmo.hpp"
-#include "ui/render/legend.hpp"
 #include "ui/render/predicted_motion.hpp"
 #include "ui/render/ring.hpp"
-#include "ui/render/vtk_text.hpp"
+#include "ui/render/stage.hpp"
 
 namespace pliant::render {
 namespace {
 
 constexpr int curveSamples = 256;
 constexpr double dashLength = 0.012;  // of the model's extent
-constexpr double captionMargin = 14;  // device-independent pixels
-constexpr int fineSamples = 8;
 /// At least so many instants of a period tell how far the motion reaches and how much it stretches: a solver may take
 /// so few samples that more happens between them.
 constexpr int fewestInstants = 64;
@@ -59,12 +45,7 @@ std::vector<Points> nodePaths(const HarmonicBalanceProblem& problem, const Matri
 }  // namespace
 
 struct MotionView::Parts {
-  vtkNew<vtkRenderer> renderer;
-  CameraControl camera{renderer};
-  Gizmo gizmo;
-  Legend legend;
-  vtkNew<vtkTextActor> caption;
-  vtkNew<vtkTextActor> notice;
+  Stage& stage;
   vtkNew<vtkLookupTable> table;
   Figure solved{Figure::Kind::solved};
   Figure predicted{Figure::Kind::ghost};
@@ -73,15 +54,8 @@ struct MotionView::Parts {
   DotPrimitive probeDots{8.0};
   Ring selectionRing;
 
-  vtkRenderWindow* window = nullptr;
-  unsigned long observer = 0;
-  Theme theme = Theme::light;
-  double ratio = 1;
   double tau = 0;
-  bool fine = true;
   bool stale = false;
-  bool fieldVisible = true;
-  std::string captionText;
 
   std::shared_ptr<const mechanics::Model> model;
   FigureLayout layout;
@@ -93,16 +67,8 @@ struct MotionView::Parts {
   double leastStretch = 0, mostStretch = 0;
   Points pose;
 
-  Parts() {
-    // What is drawn is small: waking VTK's pool of threads costs more than it saves, and the solver wants the cores.
-    vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
-    renderer->AutomaticLightCreationOff();
-    renderer->GetCullers()->RemoveAllItems();  // nothing is worth the pass over all bounds
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToCameraLight();
-    light->SetPosition(-0.45, 0.65, 1.0);
-    light->SetFocalPoint(0, 0, 0);
-    renderer->AddLight(light);
+  explicit Parts(Stage& around) : stage(around) {
+    vtkRenderer* renderer = stage.renderer();
     solved.addTo(renderer);
     for (vtkActor* actor : {paths.actor(), probeDots.actor()}) renderer->AddActor(actor);
     predicted.addTo(renderer);
@@ -110,33 +76,22 @@ struct MotionView::Parts {
     selectionRing.addTo(renderer);
     for (LinePrimitive* lines : {&paths, &predictedPaths})
       lines->actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -6);
-    legend.addTo(renderer);
-    legend.setTable(table);
-    renderer->AddActor2D(caption);
-    renderer->AddActor2D(notice);
-    observer = renderer->AddObserver(vtkCommand::StartEvent, this, &Parts::layOut);
+    stage.legend().setTable(table);
+    stage.onLayOut = [this] {
+      selectionRing.setPlace(model && selected ? stage.camera().pixelOf(pose.col(*selected)) : std::nullopt);
+    };
+    stage.onTheme = [this] { applyTheme(); };
+    stage.onPixelRatio = [this] { applyPixelRatio(); };
+    stage.onField = [this] {
+      stage.setLegendVisible(showsField());
+      showPose();
+    };
     showMotion();
-    applyTheme();
-  }
-
-  ~Parts() { renderer->RemoveObserver(observer); }
-
-  /// Puts what is measured in pixels in its place, as rendering begins.
-  void layOut() {
-    const int* size = renderer->GetSize();
-    legend.layOut(size[0], size[1]);
-    gizmo.follow(renderer->GetActiveCamera(), size[0], size[1]);
-    selectionRing.setPlace(model && selected ? camera.pixelOf(pose.col(*selected)) : std::nullopt);
-    const double margin = captionMargin * ratio;
-    caption->SetPosition(margin, size[1] - margin);
-    double height[2] = {0, 0};
-    if (!captionText.empty()) caption->GetSize(renderer, height);
-    notice->SetPosition(margin, size[1] - margin - (height[1] > 0 ? height[1] + 8 * ratio : 0));
+    stage.setTheme(Theme::light);
   }
 
   void applyTheme() {
-    const Palette& colors = palette(theme);
-    renderer->SetBackground(colors.background.data());
+    const Palette& colors = stage.colors();
     solved.setTheme(colors, stale);
     predicted.setTheme(colors, false);
     setColor(paths.actor(), stale ? faded(colors.trajectory) : colors.trajectory);
@@ -144,20 +99,22 @@ struct MotionView::Parts {
     setColor(predictedPaths.actor(), colors.prediction);
     selectionRing.setColors(colors.text, colors.background);
     setViridis(table, leastStretch, mostStretch, stale);
-    legend.setTheme(colors);
-    gizmo.setTheme(colors);
-    for (vtkTextActor* text : {caption.Get(), notice.Get()}) {
-      setTextStyle(text->GetTextProperty(), 13, text == notice.Get() && prediction ? colors.prediction : colors.text);
-      text->GetTextProperty()->SetVerticalJustificationToTop();
-      text->GetTextProperty()->SetLineSpacing(1.2);
-    }
-    const std::string predictedText = prediction ? "▨ predicted" : "";
-    const std::string staleText = stale && problem ? "inputs have changed since this was solved" : "";
-    notice->SetInput((prediction ? predictedText : staleText).c_str());
-    notice->SetVisibility(prediction || !staleText.empty());
+    if (prediction)
+      stage.setNotice("▨ predicted", colors.prediction);
+    else
+      stage.setNotice(stale && problem ? "inputs have changed since this was solved" : "", colors.text);
   }
 
-  bool showsField() const { return fieldVisible && problem && !layout.triangles.empty(); }
+  void applyPixelRatio() {
+    const double ratio = stage.pixelRatio();
+    solved.setPixelRatio(ratio);
+    predicted.setPixelRatio(ratio);
+    for (LinePrimitive* lines : {&paths, &predictedPaths}) lines->setPixelRatio(ratio);
+    probeDots.setPixelRatio(ratio);
+    selectionRing.setPixelRatio(ratio);
+  }
+
+  bool showsField() const { return stage.fieldVisible() && problem && !layout.triangles.empty(); }
 
   /// Largest principal stretch of each triangle, less 1.
   Vector stretch(const Vector& positions) const {
@@ -190,10 +147,9 @@ struct MotionView::Parts {
       if (model) figure->setMassRadii(layout, layout.massRadii(*model));
     }
     if (reach.cols() == 0) reach = Points::Zero(3, 1);
-    camera.setReach(std::move(reach));
-    legend.setRange(leastStretch, mostStretch);
-    legend.setVisible(showsField());
-    camera.setRightMargin(showsField() ? Legend::width * ratio : 0);
+    stage.camera().setReach(std::move(reach));
+    stage.legend().setRange(leastStretch, mostStretch);
+    stage.setLegendVisible(showsField());
     showPaths();
     showPose();
     applyTheme();
@@ -238,25 +194,9 @@ struct MotionView::Parts {
   }
 };
 
-MotionView::MotionView() : parts_(std::make_unique<Parts>()) {}
+MotionView::MotionView() : parts_(std::make_unique<Parts>(stage())) {}
 
 MotionView::~MotionView() { attach(nullptr); }
-
-void MotionView::attach(vtkRenderWindow* window) {
-  Parts& p = *parts_;
-  if (p.window == window) return;
-  if (p.window) {
-    p.window->RemoveRenderer(p.renderer);
-    p.window->RemoveRenderer(p.gizmo.renderer());
-  }
-  p.window = window;
-  if (!window) return;
-  window->SetNumberOfLayers(2);
-  window->AddRenderer(p.renderer);
-  window->AddRenderer(p.gizmo.renderer());
-  setPixelRatio(p.ratio);
-  setFineQuality(p.fine);
-}
 
 void MotionView::setModel(std::shared_ptr<const mechanics::Model> model) {
   Parts& p = *parts_;
@@ -329,55 +269,10 @@ void MotionView::setSelectedNode(std::optional<int> node) {
 
 std::optional<int> MotionView::selectedNode() const { return parts_->selected; }
 
-void MotionView::setCaption(const std::string& text) {
-  parts_->captionText = text;
-  parts_->caption->SetInput(text.c_str());
-  parts_->caption->SetVisibility(!text.empty());
-}
-
-void MotionView::setTheme(Theme theme) {
-  parts_->theme = theme;
-  parts_->applyTheme();
-}
-
-void MotionView::setFieldVisible(bool visible) {
-  Parts& p = *parts_;
-  p.fieldVisible = visible;
-  p.legend.setVisible(p.showsField());
-  p.camera.setRightMargin(p.showsField() ? Legend::width * p.ratio : 0);
-  p.showPose();
-}
-
-void MotionView::setPixelRatio(double ratio) {
-  Parts& p = *parts_;
-  p.ratio = ratio;
-  if (p.window) p.window->SetDPI(static_cast<int>(72 * ratio + 0.5));
-  p.solved.setPixelRatio(ratio);
-  p.predicted.setPixelRatio(ratio);
-  for (LinePrimitive* lines : {&p.paths, &p.predictedPaths}) lines->setPixelRatio(ratio);
-  p.probeDots.setPixelRatio(ratio);
-  p.selectionRing.setPixelRatio(ratio);
-  p.legend.setPixelRatio(ratio);
-  p.gizmo.setPixelRatio(ratio);
-  p.camera.setRightMargin(p.showsField() ? Legend::width * ratio : 0);
-}
-
-void MotionView::setFineQuality(bool fine) {
-  Parts& p = *parts_;
-  p.fine = fine;
-  if (p.window) p.window->SetMultiSamples(fine ? fineSamples : 0);
-}
-
-void MotionView::fit() { parts_->camera.fit(); }
-void MotionView::setAxisView(AxisView view) { parts_->camera.setAxisView(view); }
-void MotionView::orbit(double dx, double dy) { parts_->camera.orbit(dx, dy); }
-void MotionView::pan(double dx, double dy) { parts_->camera.pan(dx, dy); }
-void MotionView::zoom(double factor, double x, double y) { parts_->camera.zoom(factor, x, y); }
-
 std::optional<int> MotionView::pickNode(double x, double y, double radius) const {
   const Parts& p = *parts_;
   if (!p.model) return std::nullopt;
-  return p.camera.nearestPoint(p.pose.leftCols(p.layout.rest.cols()), x, y, radius);
+  return stage().camera().nearestPoint(p.pose.leftCols(p.layout.rest.cols()), x, y, radius);
 }
 
 }  // namespace pliant::render

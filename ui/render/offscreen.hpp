@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/harmonic/harmonic_balance_problem.hpp"
+#include "ui/render/cloth_view.hpp"
 #include "ui/render/image.hpp"
 #include "ui/render/motion_view.hpp"
 #include "ui/render/theme.hpp"
@@ -29,7 +30,11 @@ Image renderToImage(const std::shared_ptr<const mechanics::Model>& model,
                     const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
                     double tau, const PictureOptions& options);
 
-/// The same, written as a PNG file, atomically.
+/// The same of a cloth at the last of `frames` (at rest if there is none); all of them are in view.
+Image renderToImage(const std::shared_ptr<const cloth::ClothProblem>& problem,
+                    const std::vector<std::shared_ptr<const scene::ClothFrame>>& frames, const PictureOptions& options);
+
+/// A motion as above, written as a PNG file, atomically.
 void renderToPng(const std::shared_ptr<const mechanics::Model>& model,
                  const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const mechanics::Vector& z,
                  double tau, const PictureOptions& options, const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include <QTextStream>
 
 #include "core/base/error.hpp"
+#include "core/geometry/mesh_animation.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/scene/model_builder.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -18,7 +19,18 @@ namespace {
   throw base::InputError(file.toStdString(), problem.toStdString());
 }
 
-geometry::SurfaceMesh deformedMesh(const document::Document& document, const jobs::MotionSession& session, double tau) {
+geometry::SurfaceMesh frameMesh(const cloth::ClothProblem& problem, const scene::ClothFrame& frame) {
+  mechanics::Vector positions = problem.model->restPositions;
+  positions.head(frame.positions.size()) = frame.positions.reshaped();
+  return scene::surfaceAt(*problem.model, positions);
+}
+
+geometry::SurfaceMesh deformedMesh(const document::Document& document, const jobs::MotionSession& session,
+                                   viewport::Viewport& viewport) {
+  const int frame = viewport.showsCloth() ? viewport.clothView().frame() : -1;
+  if (frame >= 0)
+    return frameMesh(*viewport.clothProblem(), *viewport.clothFrames().at(static_cast<std::size_t>(frame)));
+  const double tau = viewport.tau();
   const mechanics::Model& model = *document.model();
   const auto& shown = session.shown();
   const bool moves = shown && shown->problem->model().nodeCount() == model.nodeCount();
@@ -67,10 +79,46 @@ void exportTo(const QString& file, const document::Document& document, const job
   } else if (suffix == QLatin1String("csv")) {
     writeCurve(file, document, study);
   } else {
-    const geometry::SurfaceMesh mesh = deformedMesh(document, session, viewport.tau());
+    const geometry::SurfaceMesh mesh = deformedMesh(document, session, viewport);
     if (mesh.triangles.empty()) fail(file, QStringLiteral("This scene has no triangles to export."));
     geometry::writeMesh(mesh, file.toStdString());
   }
+}
+
+QString frameExportFilters() { return QStringLiteral("Animation (*.glb);;Numbered meshes (*.obj *.ply *.stl)"); }
+
+std::function<int(base::ExecutionContext&)> frameExport(const QString& file, viewport::Viewport& viewport) {
+  if (!viewport.showsCloth() || viewport.clothFrames().empty())
+    fail(file, QStringLiteral("There are no frames of a cloth to export yet: run its study first."));
+  const QFileInfo target(file);
+  const QString suffix = target.suffix().toLower();
+  const auto problem = viewport.clothProblem();
+  const auto frames = viewport.clothFrames();
+  if (suffix == QLatin1String("glb"))
+    return [problem, frames, file](base::ExecutionContext&) {
+      geometry::MeshAnimation animation;
+      animation.triangles = frameMesh(*problem, *frames.front()).triangles;
+      for (const auto& frame : frames) {
+        animation.frames.push_back(frameMesh(*problem, *frame).points);
+        animation.times.push_back(frame->time);
+      }
+      geometry::writeAnimation(animation, file.toStdString());
+      return 1;
+    };
+  if (suffix != QLatin1String("obj") && suffix != QLatin1String("ply") && suffix != QLatin1String("stl"))
+    fail(file, QStringLiteral("The file's name must end in .glb, .obj, .ply or .stl."));
+  return [problem, frames, suffix,
+          base = target.absolutePath() + '/' + target.completeBaseName()](base::ExecutionContext& context) {
+    int written = 0;
+    for (const auto& frame : frames) {
+      if (context.cancelRequested()) break;
+      const QString name = QStringLiteral("%1_%2.%3").arg(base).arg(written, 5, 10, QLatin1Char('0')).arg(suffix);
+      geometry::writeMesh(frameMesh(*problem, *frame), name.toStdString());
+      ++written;
+      context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.size()), "");
+    }
+    return written;
+  };
 }
 
 }  // namespace pliant::shell

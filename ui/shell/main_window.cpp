@@ -18,7 +18,9 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "ui/panels/energy_panel.hpp"
 #include "ui/panels/inspector.hpp"
+#include "ui/panels/limit_panel.hpp"
 #include "ui/panels/log_panel.hpp"
 #include "ui/panels/message_bar.hpp"
 #include "ui/panels/modes_panel.hpp"
@@ -27,6 +29,7 @@
 #include "ui/panels/response_panel.hpp"
 #include "ui/panels/scene_tree.hpp"
 #include "ui/plots/plot_style.hpp"
+#include "ui/shell/cloth_link.hpp"
 #include "ui/shell/command_palette.hpp"
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/gallery.hpp"
@@ -104,6 +107,8 @@ void MainWindow::buildDocks() {
   response_ = new panels::ResponsePanel(document_, session_, quickJobs_);
   motion_ = new panels::MotionPanel(session_);
   modes_ = new panels::ModesPanel(document_, session_);
+  limits_ = new panels::LimitPanel(document_);
+  energies_ = new panels::EnergyPanel(document_);
   log_ = new panels::LogPanel;
   const auto add = [this](const QString& title, const char* name, QWidget* widget, Qt::DockWidgetArea area) {
     auto* dock = new QDockWidget(title, this);
@@ -122,10 +127,16 @@ void MainWindow::buildDocks() {
   QDockWidget* log = add(tr("Messages"), "messages", log_, Qt::BottomDockWidgetArea);
   QDockWidget* motion = add(tr("Motion"), "motion", motion_, Qt::BottomDockWidgetArea);
   QDockWidget* modes = add(tr("Modes"), "modes", modes_, Qt::RightDockWidgetArea);
+  QDockWidget* limits = add(tr("Stretch limits"), "limits", limits_, Qt::RightDockWidgetArea);
+  QDockWidget* energies = add(tr("Energy and solver"), "energy", energies_, Qt::BottomDockWidgetArea);
+  harmonicDocks_ = {plot, motion, modes};
+  clothDocks_ = {limits, energies};
+  tabifyDockWidget(docks_[1], limits);
   tabifyDockWidget(docks_[2], modes);
   docks_[2]->raise();
   tabifyDockWidget(plot, motion);
-  tabifyDockWidget(motion, log);
+  tabifyDockWidget(motion, energies);
+  tabifyDockWidget(energies, log);
   plot->raise();
 }
 
@@ -149,6 +160,7 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectParts() {
   auto* link = new ViewportLink(document_, session_, *viewport_, this);
+  new ClothLink(document_, *viewport_, *limits_, *energies_, this);
   connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
   connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
   connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);
@@ -296,7 +308,7 @@ void MainWindow::refreshTitle() {
 
 void MainWindow::setDocksVisible(bool visible) {
   for (QDockWidget* dock : docks_) dock->setVisible(visible);
-  if (visible) docks_[3]->raise();
+  if (visible) showFittingDocks();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -16,6 +16,8 @@ class QStackedWidget;
 class QToolButton;
 
 namespace pliant::panels {
+class EnergyPanel;
+class LimitPanel;
 class LogPanel;
 class MessageBar;
 class ModesPanel;
@@ -57,6 +59,8 @@ class MainWindow final : public QMainWindow {
   panels::MotionPanel& motion() { return *motion_; }
   panels::MessageBar& messages() { return *messages_; }
   panels::SceneTree& sceneTree() { return *tree_; }
+  panels::LimitPanel& limits() { return *limits_; }
+  panels::EnergyPanel& energies() { return *energies_; }
 
   QSize sizeHint() const override { return {1280, 800}; }
 
@@ -71,6 +75,7 @@ class MainWindow final : public QMainWindow {
   void buildStatusBar();
   void connectParts();
   void makeActions();
+  void makeClothActions();
   void makeMenus();
   void makeToolBar();
   void fillStudyMenu(QMenu* menu);
@@ -82,6 +87,7 @@ class MainWindow final : public QMainWindow {
   bool save();
   bool saveAs();
   void exportShown();
+  void exportFrames();
   void keepUnsaved();
   void showScene();
   void report(base::Severity severity, const QString& sentence);
@@ -93,6 +99,8 @@ class MainWindow final : public QMainWindow {
   void openPalette();
   void setTheme(Theme theme);
   void setDocksVisible(bool visible);
+  /// Docks of cloth are there for scenes with a cloth, those of vibrations for all but scenes with a cloth alone.
+  void showFittingDocks();
   void restoreSettings();
   void storeSettings() const;
 
@@ -116,12 +124,15 @@ class MainWindow final : public QMainWindow {
   panels::ResponsePanel* response_ = nullptr;
   panels::ModesPanel* modes_ = nullptr;
   panels::MotionPanel* motion_ = nullptr;
+  panels::LimitPanel* limits_ = nullptr;
+  panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;
   QToolButton* warnings_ = nullptr;
   CommandPalette* palette_ = nullptr;
   std::vector<QDockWidget*> docks_;
+  std::vector<QDockWidget*> harmonicDocks_, clothDocks_;
 };
 
 }  // namespace pliant::shell

@@ -86,6 +86,7 @@ void MainWindow::makeActions() {
     action->setChecked(theme == Theme::system);
   }
 
+  makeClothActions();
   add("model.reset", tr("&Reset All Parameters"), "reset", {}, tr("Set all parameters as they are in the file"),
       [this] { resetParameters(); });
   add("model.nextProbe", tr("Next &Probe"), "", QKeySequence(Qt::Key_P), tr("Select the next probe"),
@@ -126,12 +127,12 @@ void MainWindow::makeMenus() {
   fill(file, {"file.open"});
   QMenu* recent = file->addMenu(tr("Open &Recent"));
   connect(recent, &QMenu::aboutToShow, this, [this, recent] { fillRecentMenu(recent); });
-  fill(file, {"file.gallery", "-", "file.save", "file.saveAs", "file.export", "-", "file.quit"});
+  fill(file, {"file.gallery", "-", "file.save", "file.saveAs", "file.export", "file.exportFrames", "-", "file.quit"});
   fill(menuBar()->addMenu(tr("&Edit")), {"edit.undo", "edit.redo", "-", "edit.find"});
-  fill(
-      menuBar()->addMenu(tr("&View")), {"view.play", "view.fit", "-", "view.front", "view.back", "view.right",
-                                        "view.left", "view.top", "view.bottom", "view.isometric", "-", "view.stretch",
-                                        "view.hertz", "-", "view.theme.system", "view.theme.light", "view.theme.dark"});
+  fill(menuBar()->addMenu(tr("&View")),
+       {"view.play", "view.fit", "-", "view.front", "view.back", "view.right", "view.left", "view.top", "view.bottom",
+        "view.isometric", "-", "view.stretch", "view.limitForce", "view.directions", "view.hertz", "-",
+        "view.theme.system", "view.theme.light", "view.theme.dark"});
   fill(menuBar()->addMenu(tr("&Model")), {"model.reset", "model.nextProbe"});
   QMenu* study = menuBar()->addMenu(tr("&Study"));
   connect(study, &QMenu::aboutToShow, this, [this, study] { fillStudyMenu(study); });

@@ -35,10 +35,8 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
   place_ = new QLabel;
   place_->setFixedWidth(place_->fontMetrics().horizontalAdvance(QStringLiteral("τ = 360°")) + 8);
   speed_ = new QComboBox;
-  for (const double speed : {0.1, 0.25, 0.5, 1.0, 2.0}) speed_->addItem(tr("%1 periods/s").arg(speed), speed);
-  speed_->setCurrentIndex(speed_->findData(viewport.speed()));
   speed_->setFocusPolicy(Qt::NoFocus);
-  speed_->setToolTip(tr("How many periods are shown in a second"));
+  fillSpeeds();
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(8);
@@ -49,17 +47,56 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
 
   connect(scrub_, &QSlider::valueChanged, this, [this](int step) {
     viewport_.pause();
-    viewport_.setTau(turn * step / steps);
+    if (ofCloth_)
+      viewport_.setTime(viewport_.duration() * step / (steps - 1));
+    else
+      viewport_.setTau(turn * step / steps);
   });
-  connect(speed_, &QComboBox::activated, this, [this] { viewport_.setSpeed(speed_->currentData().toDouble()); });
+  connect(speed_, &QComboBox::activated, this, [this] {
+    const double chosen = speed_->currentData().toDouble();
+    if (ofCloth_)
+      viewport_.setClothSpeed(chosen);
+    else
+      viewport_.setSpeed(chosen);
+  });
   connect(&viewport_, &viewport::Viewport::tauChanged, this, &PlaybackBar::showTau);
+  connect(&viewport_, &viewport::Viewport::timeChanged, this, &PlaybackBar::showTime);
+  connect(&viewport_, &viewport::Viewport::clothChanged, this, [this] {
+    if (ofCloth_ != viewport_.showsCloth()) fillSpeeds();
+    if (ofCloth_)
+      showTime(viewport_.time());
+    else
+      showTau(viewport_.tau());
+  });
   showTau(viewport_.tau());
 }
 
+void PlaybackBar::fillSpeeds() {
+  ofCloth_ = viewport_.showsCloth();
+  speed_->clear();
+  for (const double speed : {0.1, 0.25, 0.5, 1.0, 2.0})
+    speed_->addItem(ofCloth_ ? tr("%1 × speed").arg(speed) : tr("%1 periods/s").arg(speed), speed);
+  speed_->setCurrentIndex(speed_->findData(ofCloth_ ? viewport_.clothSpeed() : viewport_.speed()));
+  speed_->setToolTip(ofCloth_ ? tr("How fast the cloth is shown, beside real time")
+                              : tr("How many periods are shown in a second"));
+  scrub_->setToolTip(ofCloth_ ? tr("The time of the frame") : tr("The place in the period"));
+}
+
 void PlaybackBar::showTau(double tau) {
+  if (ofCloth_) return;
   const QSignalBlocker block(scrub_);
   scrub_->setValue(static_cast<int>(std::lround(tau / turn * steps)) % steps);
   place_->setText(QStringLiteral("τ = %1°").arg(std::lround(tau / turn * 360) % 360));
+}
+
+void PlaybackBar::showTime(double time) {
+  if (!ofCloth_) return;
+  const QSignalBlocker block(scrub_);
+  const double duration = viewport_.duration();
+  scrub_->setValue(duration > 0 ? static_cast<int>(std::lround(time / duration * (steps - 1))) : 0);
+  place_->setText(viewport_.frameClock() == viewport::Viewport::FrameClock::seconds
+                      ? QStringLiteral("%1 s").arg(time, 0, 'f', 2)
+                      : tr("step %1").arg(std::lround(time)));
 }
 
 }  // namespace pliant::shell

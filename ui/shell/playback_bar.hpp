@@ -13,7 +13,7 @@ class Viewport;
 
 namespace pliant::shell {
 
-/// Plays the motion of a viewport, and shows and sets the place in its period.
+/// Plays the motion of a viewport, and shows and sets the place in its period; of a cloth, the time.
 class PlaybackBar final : public QWidget {
   Q_OBJECT
 
@@ -22,11 +22,15 @@ class PlaybackBar final : public QWidget {
 
  private:
   void showTau(double tau);
+  void showTime(double time);
+  /// Of a motion, or of a cloth.
+  void fillSpeeds();
 
   viewport::Viewport& viewport_;
   QSlider* scrub_;
   QLabel* place_;
   QComboBox* speed_;
+  bool ofCloth_ = false;
 };
 
 }  // namespace pliant::shell

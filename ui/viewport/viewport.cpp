@@ -32,10 +32,10 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   surface_->widget()->setFocusPolicy(Qt::NoFocus);
   setFocusPolicy(Qt::StrongFocus);
   setAccessibleName(tr("Viewport"));
-  view_.attach(surface_->window());
+  attachToSurface();
   surface_->onResize = [this](double pixelRatio) {
-    view_.setPixelRatio(pixelRatio);
-    if (framed_) view_.fit();
+    view_->setPixelRatio(pixelRatio);
+    if (framed_) view_->fit();
   };
   timer_.setInterval(frameInterval);
   timer_.setTimerType(Qt::PreciseTimer);
@@ -44,16 +44,16 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   settleTimer_.setSingleShot(true);
   connect(&settleTimer_, &QTimer::timeout, this, [this] {
     if (isPlaying()) return;  // the next frame is on its way
-    view_.setFineQuality(true);
+    view_->setFineQuality(true);
     surface_->requestRender();
   });
-  view_.setAxisView(render::AxisView::isometric);
+  view_->setAxisView(render::AxisView::isometric);
   applyTheme();
 }
 
 Viewport::~Viewport() {
   surface_->onResize = nullptr;
-  view_.attach(nullptr);
+  view_->attach(nullptr);
 }
 
 void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
@@ -62,9 +62,10 @@ void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
   const bool other = nodes != nodeCount_ || dimension != dimension_;
   nodeCount_ = nodes;
   dimension_ = dimension;
-  view_.setModel(std::move(model));
+  setCloth(nullptr);
+  motion_.setModel(std::move(model));
   if (other) {
-    view_.setAxisView(dimension < 3 ? render::AxisView::top : render::AxisView::isometric);
+    view_->setAxisView(dimension < 3 ? render::AxisView::top : render::AxisView::isometric);
     framed_ = true;
     motionFramed_ = false;
   }
@@ -72,51 +73,57 @@ void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
 }
 
 void Viewport::setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z) {
-  view_.setMotion(std::move(problem), z);
+  motion_.setMotion(std::move(problem), z);
   // The first motion is brought into view; later ones are compared with it at the same scale.
-  if (framed_ && !motionFramed_) view_.fit();
+  if (framed_ && !motionFramed_) motion_.fit();
   motionFramed_ = true;
   redraw();
 }
 
 void Viewport::clearMotion() {
-  view_.clearMotion();
+  motion_.clearMotion();
   redraw();
 }
 
 void Viewport::setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel) {
-  view_.setPrediction(z, std::move(changedModel));
+  motion_.setPrediction(z, std::move(changedModel));
   redraw(true);
 }
 
 void Viewport::clearPrediction() {
-  view_.clearPrediction();
+  motion_.clearPrediction();
   redraw();
 }
 
 void Viewport::setStale(bool stale) {
-  view_.setStale(stale);
+  motion_.setStale(stale);
+  cloth_.setStale(stale);
   redraw();
 }
 
 void Viewport::setSelectedNode(std::optional<int> node) {
-  view_.setSelectedNode(node);
+  motion_.setSelectedNode(node);
+  cloth_.setSelectedNode(node);
   redraw();
 }
 
 void Viewport::setCaption(const QString& text) {
-  view_.setCaption(text.toStdString());
+  motion_.setCaption(text.toStdString());
+  cloth_.setCaption(text.toStdString());
   redraw();
 }
 
 void Viewport::setFieldVisible(bool visible) {
-  view_.setFieldVisible(visible);
+  motion_.setFieldVisible(visible);
+  cloth_.setFieldVisible(visible);
   redraw();
 }
 
-std::optional<int> Viewport::selectedNode() const { return view_.selectedNode(); }
+std::optional<int> Viewport::selectedNode() const {
+  return showsCloth() ? cloth_.selectedNode() : motion_.selectedNode();
+}
 
-double Viewport::tau() const { return view_.tau(); }
+double Viewport::tau() const { return motion_.tau(); }
 
 QString Viewport::surfaceName() const { return surface_->name(); }
 
@@ -149,8 +156,8 @@ void Viewport::setTau(double tau) {
   if (!std::isfinite(tau)) return;
   double wrapped = std::fmod(tau, fullTurn);
   if (wrapped < 0) wrapped += fullTurn;
-  if (wrapped == view_.tau()) return;
-  view_.setTau(wrapped);
+  if (wrapped == motion_.tau()) return;
+  motion_.setTau(wrapped);
   redraw(true);
   Q_EMIT tauChanged(wrapped);
 }
@@ -159,13 +166,13 @@ void Viewport::setSpeed(double periodsPerSecond) { speed_ = periodsPerSecond; }
 
 void Viewport::fit() {
   framed_ = true;
-  view_.fit();
+  view_->fit();
   redraw();
 }
 
 void Viewport::setAxisView(render::AxisView view) {
   framed_ = true;
-  view_.setAxisView(view);
+  view_->setAxisView(view);
   redraw();
 }
 
@@ -189,9 +196,9 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   const QPointF moved = event->position() - lastPosition_;
   lastPosition_ = event->position();
   if (middle || (event->modifiers() & Qt::ShiftModifier)) {
-    view_.pan(moved.x() * devicePixelRatioF(), moved.y() * devicePixelRatioF());
+    view_->pan(moved.x() * devicePixelRatioF(), moved.y() * devicePixelRatioF());
   } else {
-    view_.orbit(moved.x() / height(), moved.y() / height());
+    view_->orbit(moved.x() / height(), moved.y() / height());
   }
   redraw(true);
 }
@@ -200,7 +207,7 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   if (dragged_ || event->button() != Qt::LeftButton) return;
   const double ratio = devicePixelRatioF();
   const QPointF place = event->position() * ratio;
-  Q_EMIT nodePicked(view_.pickNode(place.x(), place.y(), pickRadius * ratio).value_or(-1));
+  Q_EMIT nodePicked(view_->pickNode(place.x(), place.y(), pickRadius * ratio).value_or(-1));
 }
 
 void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -212,7 +219,7 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
 void Viewport::wheelEvent(QWheelEvent* event) {
   const QPointF place = event->position() * devicePixelRatioF();
   framed_ = false;
-  view_.zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
+  view_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
   redraw(true);
   event->accept();
 }
@@ -233,24 +240,34 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-void Viewport::advance() { setTau(view_.tau() + fullTurn * speed_ * 1e-3 * static_cast<double>(clock_.restart())); }
+void Viewport::advance() {
+  const double seconds = 1e-3 * static_cast<double>(clock_.restart());
+  if (showsCloth())
+    advanceCloth(seconds);
+  else
+    setTau(motion_.tau() + fullTurn * speed_ * seconds);
+}
 
 void Viewport::redraw(bool moving) {
   // What moved a moment ago stays rough whatever else is redrawn: a drag changes the caption as well.
   if ((moving || isPlaying()) && surface_->drawsInSoftware()) settleTimer_.start();
-  view_.setFineQuality(!settleTimer_.isActive());
+  view_->setFineQuality(!settleTimer_.isActive());
   surface_->requestRender();
 }
+
+void Viewport::attachToSurface() { view_->attach(surface_->window()); }
 
 void Viewport::settle() {
   if (!settleTimer_.isActive()) return;
   settleTimer_.stop();
-  view_.setFineQuality(true);
+  view_->setFineQuality(true);
   surface_->requestRender();
 }
 
 void Viewport::applyTheme() {
-  view_.setTheme(palette().color(QPalette::Window).lightnessF() < 0.5 ? render::Theme::dark : render::Theme::light);
+  const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
+  for (render::View* view : {static_cast<render::View*>(&motion_), static_cast<render::View*>(&cloth_)})
+    view->setTheme(dark ? render::Theme::dark : render::Theme::light);
   redraw();
 }
 

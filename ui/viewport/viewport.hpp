@@ -9,15 +9,16 @@
 #include <optional>
 
 #include "core/harmonic/harmonic_balance_problem.hpp"
+#include "ui/render/cloth_view.hpp"
 #include "ui/render/motion_view.hpp"
 
 namespace pliant::viewport {
 
 class RenderSurface;
 
-/// The widget that shows a model and plays its motion. Left drag orbits, middle or shift drag pans, the wheel zooms
-/// towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0 isometrically, Space plays and pauses, a
-/// click picks a node. Colours follow the palette.
+/// The widget that shows a model and plays its motion, or a cloth and its frames. Left drag orbits, middle or shift
+/// drag pans, the wheel zooms towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0
+/// isometrically, Space plays and pauses, a click picks a node. Colours follow the palette.
 class Viewport : public QWidget {
   Q_OBJECT
 
@@ -37,11 +38,30 @@ class Viewport : public QWidget {
   void setCaption(const QString& text);
   void setFieldVisible(bool visible);
 
+  /// Shows a cloth in the place of the model and its motion, at rest; null: these again. See render::ClothView.
+  void setCloth(std::shared_ptr<const cloth::ClothProblem> problem);
+  bool showsCloth() const { return view_ == &cloth_; }
+  render::ClothView& clothView() { return cloth_; }
+  std::shared_ptr<const cloth::ClothProblem> clothProblem() const { return clothProblem_; }
+  /// What a frame's time counts.
+  enum class FrameClock { seconds, steps };
+  /// All frames of the cloth. While they grow the newest is shown, unless another one was chosen.
+  void setClothFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames, bool growing, FrameClock clock);
+  const std::vector<std::shared_ptr<const scene::ClothFrame>>& clothFrames() const { return frames_; }
+  FrameClock frameClock() const { return frameClock_; }
+  /// Of the shown cloth's last frame, and the place in it [s or steps].
+  double duration() const { return frames_.empty() ? 0 : frames_.back()->time; }
+  double time() const { return time_; }
+  /// Redraws after something was set at clothView().
+  void redrawCloth() { redraw(); }
+
   std::optional<int> selectedNode() const;
   double tau() const;
   bool isPlaying() const { return timer_.isActive(); }
   /// Periods shown in a second; 0.5 at first.
   double speed() const { return speed_; }
+  /// How much faster than life a cloth is shown; 1 at first.
+  double clothSpeed() const { return clothSpeed_; }
   /// "OpenGL" or "software".
   QString surfaceName() const;
 
@@ -61,6 +81,9 @@ class Viewport : public QWidget {
   /// The place in the period [rad], wrapped to [0, 2π).
   void setTau(double tau);
   void setSpeed(double periodsPerSecond);
+  /// Shows the last frame of the cloth that is not after this time.
+  void setTime(double time);
+  void setClothSpeed(double factor) { clothSpeed_ = factor; }
   void fit();
   void setAxisView(pliant::render::AxisView view);
 
@@ -68,6 +91,9 @@ class Viewport : public QWidget {
   /// A click hit this node; -1: nothing near. The selection is the receiver's to change.
   void nodePicked(int node);
   void tauChanged(double tau);
+  void timeChanged(double time);
+  /// A cloth, or how much there is of it, or no cloth any more.
+  void clothChanged();
   void playingChanged(bool playing);
 
  protected:
@@ -81,16 +107,28 @@ class Viewport : public QWidget {
 
  private:
   void advance();
+  void advanceCloth(double seconds);
+  void showView(render::View& view);
+  void attachToSurface();
   /// `moving`: more of the kind is to come soon.
   void redraw(bool moving = false);
   void applyTheme();
 
-  render::MotionView view_;
+  render::MotionView motion_;
+  render::ClothView cloth_;
+  render::View* view_ = &motion_;  ///< what is shown
   std::unique_ptr<RenderSurface> surface_;
   QTimer timer_;
   QTimer settleTimer_;
   QElapsedTimer clock_;
   double speed_ = 0.5;
+  std::vector<std::shared_ptr<const scene::ClothFrame>> frames_;
+  std::shared_ptr<const cloth::ClothProblem> clothProblem_;
+  FrameClock frameClock_ = FrameClock::seconds;
+  double time_ = 0;
+  double clothSpeed_ = 1;
+  bool growing_ = false;
+  bool followsNewest_ = true;  ///< while frames grow
   int nodeCount_ = 0;
   int dimension_ = 0;
   bool framed_ = true;         ///< the camera is where fit() or an axis view put it

@@ -1,0 +1,109 @@
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+
+#include "tests/ui/render/hanging_sheet.hpp"
+#include "tests/ui/render/swinging_fork.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace pliant::viewport {
+
+namespace {
+using FrameClock = Viewport::FrameClock;
+}
+
+/// Cloth playback: time, frames that grow, back to the model.
+class TestViewportCloth : public QObject {
+  Q_OBJECT
+
+ private Q_SLOTS:
+  void init() {
+    viewport_ = std::make_unique<Viewport>();
+    viewport_->resize(480, 320);
+    viewport_->setModel(sheet_.problem->model);
+    viewport_->show();
+    QVERIFY(QTest::qWaitForWindowExposed(viewport_.get()));
+    viewport_->setCloth(sheet_.problem);
+  }
+  void cleanup() { viewport_.reset(); }
+
+  void timeChoosesTheFrame() {
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    QSignalSpy changed(viewport_.get(), &Viewport::timeChanged);
+    for (int i = 0; i <= 10; ++i) {
+      viewport_->setTime(0.1 * i);
+      QCOMPARE(viewport_->clothView().frame(), i);
+      viewport_->setTime(0.1 * i + 0.05);
+      QCOMPARE(viewport_->clothView().frame(), i);
+    }
+    QCOMPARE(changed.count(), 22);
+    viewport_->setTime(99);
+    QVERIFY(std::abs(viewport_->time() - 1.0) < 1e-12);
+    viewport_->setTime(-1);
+    QCOMPARE(viewport_->clothView().frame(), 0);
+    viewport_->setTime(NAN);
+    QCOMPARE(viewport_->time(), 0.0);
+  }
+
+  void theNewestFrameIsShownWhileTheyGrow() {
+    const auto first = [&](int count) { return std::vector(sheet_.frames.begin(), sheet_.frames.begin() + count); };
+    viewport_->setClothFrames(first(2), true, FrameClock::seconds);
+    QCOMPARE(viewport_->clothView().frame(), 1);
+    viewport_->setClothFrames(first(5), true, FrameClock::seconds);
+    QCOMPARE(viewport_->clothView().frame(), 4);
+    // One that was chosen stays, until the newest is chosen.
+    viewport_->setTime(0.2);
+    viewport_->setClothFrames(first(7), true, FrameClock::seconds);
+    QCOMPARE(viewport_->clothView().frame(), 2);
+    viewport_->setTime(viewport_->duration());
+    viewport_->setClothFrames(first(9), true, FrameClock::seconds);
+    QCOMPARE(viewport_->clothView().frame(), 8);
+    // At its end it stays where it is.
+    viewport_->setTime(0.3);
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    QCOMPARE(viewport_->clothView().frame(), 3);
+  }
+
+  void itPlaysAndBeginsAgain() {
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    viewport_->setTime(0.9);
+    viewport_->setClothSpeed(20);
+    QSignalSpy changed(viewport_.get(), &Viewport::timeChanged);
+    viewport_->play();
+    const auto beganAgain = [&] {
+      for (qsizetype i = 1; i < changed.size(); ++i)
+        if (changed[i][0].toDouble() < changed[i - 1][0].toDouble()) return true;
+      return false;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(beganAgain(), 30'000);
+    viewport_->pause();
+  }
+
+  void theModelComesBack() {
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    viewport_->setTime(0.7);
+    const QImage cloth = viewport_->grabImage();
+    const render::SwingingFork fork;
+    viewport_->setModel(fork.model);
+    QVERIFY(!viewport_->showsCloth());
+    QCOMPARE(viewport_->duration(), 0.0);
+    const QImage model = viewport_->grabImage();
+    QVERIFY(model != cloth);
+    viewport_->setCloth(sheet_.problem);
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    viewport_->setTime(0.7);
+    viewport_->fit();
+    QVERIFY(viewport_->grabImage() != model);
+    viewport_->setCloth(nullptr);
+    QVERIFY(viewport_->grabImage() == model);
+  }
+
+ private:
+  render::HangingSheet sheet_;
+  std::unique_ptr<Viewport> viewport_;
+};
+
+}  // namespace pliant::viewport
+
+QTEST_MAIN(pliant::viewport::TestViewportCloth)
+#include "test_viewport_cloth.moc"

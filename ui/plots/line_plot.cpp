@@ -1,0 +1,176 @@
+#include "ui/plots/line_plot.hpp"
+
+#include <QEvent>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QSharedPointer>
+#include <QStackedLayout>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ui/plots/custom_plot.hpp"
+#include "ui/plots/plot_style.hpp"
+
+namespace pliant::plots {
+
+namespace {
+
+/// Okabe and Ito's, those with too little contrast made darker on white.
+constexpr std::array<QRgb, 7> lineColors{
+    0xff0072b2, 0xffd55e00, 0xff009e73, 0xffcc79a7, 0xffb07800, 0xff56b4e9, 0xff4d4d4d};
+constexpr std::array<QRgb, 7> lineColorsOnDark{
+    0xff56b4e9, 0xffe69f00, 0xff2fc49b, 0xffe39fc4, 0xfff0e442, 0xff7d9cff, 0xffc8c8c8};
+
+}  // namespace
+
+LinePlot::LinePlot(QWidget* parent)
+    : QWidget(parent), pages_(new QStackedLayout(this)), plot_(new QCustomPlot), note_(new QLabel) {
+  note_->setAlignment(Qt::AlignCenter);
+  note_->setWordWrap(true);
+  note_->setMargin(16);
+  pages_->addWidget(note_);
+  pages_->addWidget(plot_);
+  plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  plot_->setAutoAddPlottableToLegend(false);
+  connect(plot_, &QCustomPlot::mouseDoubleClick, this, &LinePlot::fit);
+  connect(plot_, &QCustomPlot::mouseWheel, this, [this] { zoomed_ = true; });
+  connect(plot_, &QCustomPlot::mousePress, this, [this](QMouseEvent* event) { press_ = event->pos(); });
+  connect(plot_, &QCustomPlot::mouseRelease, this, [this](QMouseEvent* event) {
+    const QPoint moved = event->pos() - press_;
+    if (moved.manhattanLength() > 4)
+      zoomed_ = true;
+    else if (plot_->axisRect()->rect().contains(event->pos()))
+      Q_EMIT placeChosen(plot_->xAxis->pixelToCoord(event->pos().x()));
+  });
+  applyStyle();
+}
+
+void LinePlot::setNote(const QString& sentence) {
+  chart_ = {};
+  note_->setText(sentence);
+  pages_->setCurrentWidget(note_);
+}
+
+void LinePlot::setChart(LineChart chart) {
+  const bool another = chart.yLabel != chart_.yLabel || chart.xLabel != chart_.xLabel ||
+                       chart.logarithmicY != chart_.logarithmicY || pages_->currentWidget() != plot_;
+  chart_ = std::move(chart);
+  pages_->setCurrentWidget(plot_);
+  redraw();
+  if (another || !zoomed_) fit();
+}
+
+void LinePlot::setInstant(double x) {
+  shownInstant_ = x;
+  instantSet_ = true;
+  if (!instant_ || pages_->currentWidget() != plot_) return;
+  instant_->point1->setCoords(x, 0);
+  instant_->point2->setCoords(x, 1);
+  instant_->setVisible(true);
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LinePlot::fit() {
+  zoomed_ = false;
+  plot_->rescaleAxes();
+  const QCPRange y = plot_->yAxis->range();
+  if (chart_.logarithmicY)
+    plot_->yAxis->setRange(y.lower / 2, y.upper * 2);
+  else
+    plot_->yAxis->scaleRange(1.12);
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LinePlot::redraw() {
+  plot_->clearPlottables();
+  plot_->clearItems();
+  instant_ = new QCPItemStraightLine(plot_);
+  instant_->setVisible(false);
+  plot_->xAxis->setLabel(chart_.xLabel);
+  plot_->yAxis->setLabel(chart_.yLabel);
+  plot_->yAxis->setScaleType(chart_.logarithmicY ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+  plot_->yAxis->setTicker(chart_.logarithmicY ? QSharedPointer<QCPAxisTicker>(new QCPAxisTickerLog)
+                                              : QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
+  plot_->yAxis->setNumberFormat(chart_.logarithmicY ? QStringLiteral("eb") : QStringLiteral("gb"));
+  plot_->yAxis->setNumberPrecision(chart_.logarithmicY ? 0 : 5);
+  plot_->yAxis->ticker()->setTickCount(4);
+  const auto& colors = isDark(palette()) ? lineColorsOnDark : lineColors;
+  for (const PlotLine& line : chart_.lines) {
+    QCPGraph* graph = plot_->addGraph();
+    const QColor color(colors[static_cast<std::size_t>(line.group) % colors.size()]);
+    graph->setPen(QPen(color, 1.8, line.dashed ? Qt::DashLine : Qt::SolidLine));
+    if (line.dots) graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, color, 5));
+    QVector<double> x, y;
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      if (!std::isfinite(line.y[i]) || (chart_.logarithmicY && line.y[i] <= 0)) continue;
+      x.append(line.x[i]);
+      y.append(line.y[i]);
+    }
+    graph->setData(x, y, true);
+    graph->setName(line.name);
+    if (!line.name.isEmpty()) graph->addToLegend();
+  }
+  plot_->legend->setVisible(plot_->legend->itemCount() > 1);
+  applyStyle();
+  if (instantSet_) setInstant(shownInstant_);
+}
+
+void LinePlot::applyStyle() {
+  const PlotStyle style = plotStyle(palette());
+  plot_->setBackground(style.background);
+  QFont small = font();
+  small.setPointSizeF(font().pointSizeF() * 0.9);
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+    axis->setBasePen(QPen(style.mutedText, 1));
+    axis->setTickPen(QPen(style.mutedText, 1));
+    axis->setSubTicks(false);
+    axis->setTickLabelColor(style.mutedText);
+    axis->setLabelColor(style.text);
+    axis->setTickLabelFont(small);
+    axis->setLabelFont(font());
+    axis->setLabelPadding(6);
+    axis->grid()->setPen(QPen(style.grid, 1));
+    axis->grid()->setZeroLinePen(QPen(style.mutedText, 1));
+  }
+  plot_->legend->setFont(small);
+  plot_->legend->setTextColor(style.text);
+  QColor box = style.background;
+  box.setAlpha(224);
+  plot_->legend->setBrush(box);
+  plot_->legend->setBorderPen(Qt::NoPen);
+  if (instant_) instant_->setPen(QPen(style.mutedText, 1.2, Qt::DotLine));
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LinePlot::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+    if (pages_->currentWidget() == plot_)
+      redraw();
+    else
+      applyStyle();
+  }
+  QWidget::changeEvent(event);
+}
+
+QString LinePlot::toCsv() const {
+  QStringList names;
+  std::size_t rows = 0;
+  for (const PlotLine& line : chart_.lines) {
+    const QString name = line.name.isEmpty() ? QString() : line.name + QStringLiteral(": ");
+    names << QString(name + chart_.xLabel).remove(',') << QString(name + chart_.yLabel).remove(',');
+    rows = std::max(rows, line.x.size());
+  }
+  if (names.isEmpty()) return {};
+  QString text = names.join(',') + '\n';
+  for (std::size_t i = 0; i < rows; ++i) {
+    QStringList values;
+    for (const PlotLine& line : chart_.lines)
+      values << (i < line.x.size() ? QString::number(line.x[i], 'g', 17) : QString())
+             << (i < line.y.size() ? QString::number(line.y[i], 'g', 17) : QString());
+    text += values.join(',') + '\n';
+  }
+  return text;
+}
+
+}  // namespace pliant::plots

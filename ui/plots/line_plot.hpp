@@ -1,0 +1,74 @@
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+class QCPItemStraightLine;
+class QCustomPlot;
+class QLabel;
+class QStackedLayout;
+
+namespace pliant::plots {
+
+/// One line of a plot; lines of one group have one colour.
+struct PlotLine {
+  QString name;  ///< in the legend; empty: it has no place there
+  std::vector<double> x, y;
+  int group = 0;
+  bool dashed = false;
+  bool dots = false;  ///< its points are marked
+};
+
+/// What a line plot shows; units stand in the labels.
+struct LineChart {
+  QString xLabel, yLabel;
+  bool logarithmicY = false;  ///< values that are not above 0 are left out
+  std::vector<PlotLine> lines;
+};
+
+/// Some lines that may grow, in colours that are told apart by the colour-blind; a line marks an instant. Wheel and
+/// drag zoom and pan, a double click shows everything, and whatever grows is shown as long as nobody has zoomed.
+class LinePlot final : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit LinePlot(QWidget* parent = nullptr);
+
+  void setChart(LineChart chart);
+  /// A sentence instead of lines.
+  void setNote(const QString& sentence);
+  /// Marks a place of the x-axis.
+  void setInstant(double x);
+  void fit();
+
+  QCustomPlot* plot() const { return plot_; }
+  const LineChart& chart() const { return chart_; }
+  /// What is shown as text, two columns a line.
+  QString toCsv() const;
+
+  QSize sizeHint() const override { return {480, 240}; }
+  QSize minimumSizeHint() const override { return {240, 140}; }
+
+ Q_SIGNALS:
+  /// A click at this place of the x-axis.
+  void placeChosen(double x);
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void redraw();
+  void applyStyle();
+
+  QStackedLayout* pages_;
+  QCustomPlot* plot_;
+  QLabel* note_;
+  QCPItemStraightLine* instant_ = nullptr;
+  LineChart chart_;
+  double shownInstant_ = 0;
+  bool instantSet_ = false;
+  bool zoomed_ = false;
+  QPoint press_;
+};
+
+}  // namespace pliant::plots

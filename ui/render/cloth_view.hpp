@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/scene/cloth_result.hpp"
+#include "ui/render/view.hpp"
+
+namespace pliant::render {
+
+/// What colours a sheet.
+enum class ClothField {
+  stretchRatio,  ///< the largest stretch over its limit: 1 is at the limit
+  limitForce     ///< what the limits press with
+};
+
+/// A cloth with its bodies and pins, at one of its frames. Frames may be added while it is seen. The sheet is shaded
+/// smoothly from both sides and coloured by how near it is to its limits.
+class ClothView final : public View {
+ public:
+  ClothView();
+  ~ClothView() override;
+
+  /// Shows a cloth at rest, without frames. Null: an empty view.
+  void setProblem(std::shared_ptr<const cloth::ClothProblem> problem);
+  /// All frames in the order of time; those that were there stay the same while a study runs.
+  void setFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames);
+  /// Shows the frame with this number, if there is one.
+  void setFrame(int frame);
+  /// -1: at rest.
+  int frame() const;
+  /// Greys the sheet: inputs have changed since.
+  void setStale(bool stale);
+  void setField(ClothField field);
+  /// Short lines along the first material direction of some triangles (off at first).
+  void setDirectionsVisible(bool visible);
+  void setSelectedNode(std::optional<int> node);
+  std::optional<int> selectedNode() const;
+
+  std::optional<int> pickNode(double x, double y, double radius) const override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace pliant::render

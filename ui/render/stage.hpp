@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+
+#include <functional>
+#include <string>
+
+#include "ui/render/camera_control.hpp"
+#include "ui/render/gizmo.hpp"
+#include "ui/render/legend.hpp"
+#include "ui/render/view.hpp"
+
+namespace pliant::render {
+
+/// What stands around the figure of every view: a renderer with its light, the camera, the gizmo, the scalar bar and
+/// two labels. The view's own parts follow it through three hooks.
+class Stage {
+ public:
+  Stage();
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  vtkRenderer* renderer() { return renderer_; }
+  CameraControl& camera() { return camera_; }
+  const CameraControl& camera() const { return camera_; }
+  Legend& legend() { return legend_; }
+  const Palette& colors() const;
+  double pixelRatio() const { return ratio_; }
+  bool fieldVisible() const { return fieldVisible_; }
+
+  void attach(vtkRenderWindow* window);
+  void setCaption(const std::string& text);
+  /// Below the caption; empty: none.
+  void setNotice(const std::string& text, const Color& color);
+  void setTheme(Theme theme);
+  void setPixelRatio(double ratio);
+  void setFineQuality(bool fine);
+  void setFieldVisible(bool visible);
+  /// Shows the scalar bar and keeps room for it.
+  void setLegendVisible(bool visible);
+
+  std::function<void()> onLayOut;      ///< rendering begins: what is measured in pixels is put in its place
+  std::function<void()> onTheme;       ///< other colours
+  std::function<void()> onPixelRatio;  ///< another size of pixels
+  std::function<void()> onField;       ///< the field is shown or hidden
+
+ private:
+  void layOut();
+
+  vtkNew<vtkRenderer> renderer_;
+  CameraControl camera_{renderer_};
+  Gizmo gizmo_;
+  Legend legend_;
+  vtkNew<vtkTextActor> caption_;
+  vtkNew<vtkTextActor> notice_;
+  vtkRenderWindow* window_ = nullptr;
+  unsigned long observer_ = 0;
+  Theme theme_ = Theme::light;
+  double ratio_ = 1;
+  bool fine_ = true;
+  bool fieldVisible_ = true;
+  bool legendVisible_ = false;
+  std::string captionText_;
+};
+
+}  // namespace pliant::render

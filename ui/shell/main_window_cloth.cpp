@@ -1,0 +1,77 @@
+#include <QAction>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "ui/shell/cloth_link.hpp"
+#include "ui/shell/exporter.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace pliant::shell {
+
+void MainWindow::makeClothActions() {
+  const auto checkable = [this](const char* id, const QString& text, const QString& tooltip) {
+    QAction* action = actions_.add({QLatin1String(id), text, {}, {}, tooltip}, [] {});
+    action->setCheckable(true);
+    return action;
+  };
+  QAction* force = checkable(
+      "view.limitForce", tr("Colour by Limit Force"), tr("Colour a cloth by what its stretch limits press with"));
+  connect(force, &QAction::toggled, this, [this](bool on) {
+    viewport_->clothView().setField(on ? render::ClothField::limitForce : render::ClothField::stretchRatio);
+    viewport_->redrawCloth();
+  });
+  QAction* directions =
+      checkable("view.directions", tr("Material Directions"), tr("Show the first material direction of a cloth"));
+  connect(directions, &QAction::toggled, this, [this](bool on) {
+    viewport_->clothView().setDirectionsVisible(on);
+    viewport_->redrawCloth();
+  });
+  actions_.add({QStringLiteral("file.exportFrames"),
+                tr("Export &Frames…"),
+                {},
+                {},
+                tr("Export all frames of a cloth as an animation or as numbered meshes")},
+               [this] { exportFrames(); });
+}
+
+/// The frames are written in the background; one sentence says how many there are.
+void MainWindow::exportFrames() {
+  const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral(".glb");
+  const QString file = QFileDialog::getSaveFileName(this, tr("Export all frames"), name, frameExportFilters());
+  if (file.isEmpty()) return;
+  try {
+    jobs::Job job;
+    job.topic = QStringLiteral("export frames");
+    job.title = tr("Export %1").arg(QFileInfo(file).fileName());
+    job.work = [this, file, work = frameExport(file, *viewport_)](
+                   base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
+      const int count = work(context);
+      return [this, file, count] {
+        report(base::Severity::information,
+               count == 1 ? tr("Exported to %1.").arg(file) : tr("Exported %1 files beside %2.").arg(count).arg(file));
+      };
+    };
+    sceneJobs_.submit(std::move(job));
+  } catch (const base::InputError& error) {
+    report(base::Severity::warning, QString::fromStdString(error.what()));
+  }
+}
+
+void MainWindow::showFittingDocks() {
+  const bool cloth = hasCloth(document_);
+  const auto& studies = document_.studies();
+  const bool harmonic = !cloth || std::any_of(studies.begin(), studies.end(),
+                                              [](const auto& s) { return !document::isClothStudy(s.type); });
+  for (QDockWidget* dock : harmonicDocks_) dock->setVisible(harmonic);
+  for (QDockWidget* dock : clothDocks_) dock->setVisible(cloth);
+  docks_[1]->raise();
+  docks_[3]->raise();
+  if (cloth)
+    for (QDockWidget* dock : clothDocks_) dock->raise();
+}
+
+}  // namespace pliant::shell
