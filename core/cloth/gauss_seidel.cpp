@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 
 namespace pliant::cloth {
@@ -29,14 +30,17 @@ class GaussSeidelLimiter final : public StrainLimiter {
   solvers::ConeSolution project(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
                                 base::ExecutionContext& context) override {
     static_cast<void>(start);  // it begins at the candidate
+    if (candidate.cols() != constraints_.nodeCount || !candidate.allFinite())
+      throw base::InputError("", "A projection needs a finite position for each of its " +
+                                     std::to_string(constraints_.nodeCount) + " nodes.");
     const base::Stopwatch stopwatch;
     solvers::ConeSolution solution;
     solution.positions = candidate;
     base::SolverReport& report = solution.report;
     report.termination = base::TerminationType::iterationLimit;
-    for (int sweep = 0; sweep <= options_.sweeps; ++sweep) {
-      const double worst = this->sweep(solution.positions);  // before the corrections of this sweep
-      if (sweep % recordEvery(sweep) == 0 || worst <= options_.violation)
+    for (int sweep = 0; sweep <= options_.sweeps; ++sweep) {  // the last may find that nothing is left to do
+      const double worst = this->sweep(solution.positions);   // before the corrections of this sweep
+      if (sweep % recordEvery(sweep) == 0 || sweep == options_.sweeps || worst <= options_.violation)
         report.iterations.push_back({sweep, worst, 1, worst});
       if (worst <= options_.violation) {
         report.termination = base::TerminationType::converged;

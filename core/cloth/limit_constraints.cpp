@@ -1,10 +1,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/error.hpp"
-#include "core/cloth/stretch_limit.hpp"
+#include "core/cloth/direction_search.hpp"
 
 namespace pliant::cloth {
 
@@ -12,6 +11,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int fineSamples = 1440;  ///< directions at which curves are compared
+/// Of a ratio of squared stretches between two neighbouring directions, below its maximum.
+constexpr double largestDip = 0.01;
 
 /// dᵀSd = mean + cosine cos 2α + sine sin 2α.
 struct Sinusoid {
@@ -26,18 +27,60 @@ void requireCount(int count, int least) {
                                    std::to_string(count) + ".");
 }
 
+/// b² of a limit that is exactly one. Throws std::bad_variant_access for a curve.
+Sinusoid sinusoidOf(const StretchLimit& limit) {
+  if (const auto* isotropic = std::get_if<IsotropicLimit>(&limit)) return {isotropic->stretch * isotropic->stretch};
+  const auto& [first, second, angle] = std::get<OrthotropicLimit>(limit);
+  const double mean = (first * first + second * second) / 2, half = (first * first - second * second) / 2;
+  return {mean, half * std::cos(2 * angle), half * std::sin(2 * angle)};
+}
+
+/// b² and its derivatives by θ = 2α.
+struct SquaredLimit {
+  double value = 0, slope = 0, curvature = 0;
+};
+
+SquaredLimit squaredLimitAt(const StretchLimit& limit, double angle) {
+  if (const auto* curve = std::get_if<LimitCurve>(&limit)) {
+    const double b = (*curve)(angle), slope = curve->slope(angle);
+    return {b * b, b * slope, (slope * slope + b * curve->curvature(angle)) / 2};
+  }
+  const Sinusoid sinusoid = sinusoidOf(limit);
+  const double cosine = std::cos(2 * angle), sine = std::sin(2 * angle);
+  return {sinusoid.at(2 * angle), sinusoid.sine * cosine - sinusoid.cosine * sine,
+          -sinusoid.cosine * cosine - sinusoid.sine * sine};
+}
+
+/// A limit with the directions at which to compare something with it.
+struct SampledLimit {
+  explicit SampledLimit(const StretchLimit& given) : limit(given), angles(samplingAngles(given, fineSamples)) {
+    for (const double angle : angles) squared.push_back(squaredAt(angle));
+    for (std::size_t i = 1; i < angles.size(); ++i) spacing = std::min(spacing, angles[i] - angles[i - 1]);
+  }
+  double squaredAt(double angle) const {
+    const double stretch = stretchAt(limit, angle);
+    return stretch * stretch;
+  }
+
+  const StretchLimit& limit;
+  std::vector<double> angles;
+  std::vector<double> squared;        ///< b² there
+  double spacing = pi / fineSamples;  ///< the least between two of them
+};
+
 /// The largest stretch / limit - 1 over all directions for a C given as a sinusoid.
-double largestExcess(const Sinusoid& metric, const std::vector<double>& squaredLimits) {
-  double largest = 0;
-  for (int i = 0; i < fineSamples; ++i)
-    largest = std::max(largest, metric.at(2 * pi * i / fineSamples) / squaredLimits[i]);
+double largestExcess(const Sinusoid& metric, const SampledLimit& limit) {
+  std::vector<double> ratios(limit.angles.size());
+  for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = metric.at(2 * limit.angles[i]) / limit.squared[i];
+  const double largest = largestOverDirections(
+      limit.angles, ratios, largestDip, [&](double angle) { return metric.at(2 * angle) / limit.squaredAt(angle); });
   return std::sqrt(largest) - 1;
 }
 
 /// The worst C ⪰ 0 with dᵀCd <= b² in the given directions. dᵀCd is linear in C, so it is an extreme point of the
 /// convex set of all such C: of rank two with three constraints active, or of rank one (C = vvᵀ) with two, for along a
 /// single active one (v·d)² is convex.
-double worstOvershoot(const std::vector<DirectionLimit>& directions, const std::vector<double>& squaredLimits) {
+double worstOvershoot(const std::vector<DirectionLimit>& directions, const SampledLimit& limit) {
   const int count = static_cast<int>(directions.size());
   std::vector<Eigen::Vector3d> rows;
   Eigen::VectorXd bounds(count);
@@ -50,7 +93,7 @@ double worstOvershoot(const std::vector<DirectionLimit>& directions, const std::
   const auto consider = [&](const Eigen::Vector3d& metric) {
     for (int i = 0; i < count; ++i)
       if (rows[i].dot(metric) > bounds[i] * (1 + 1e-9)) return;
-    overshoot = std::max(overshoot, largestExcess({metric[0], metric[1], metric[2]}, squaredLimits));
+    overshoot = std::max(overshoot, largestExcess({metric[0], metric[1], metric[2]}, limit));
   };
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j) {
@@ -71,24 +114,27 @@ double worstOvershoot(const std::vector<DirectionLimit>& directions, const std::
   return overshoot;
 }
 
-std::vector<double> squaredLimitsOf(const StretchLimit& limit) {
-  std::vector<double> squared;
-  for (int i = 0; i < fineSamples; ++i) {
-    const double stretch = stretchAt(limit, pi * i / fineSamples);
-    squared.push_back(stretch * stretch);
-  }
-  return squared;
+/// The flattest sinusoid that touches b² in the direction `centre` and is above it everywhere else:
+/// s(θ) = b²(θ₀) + (b²)'(θ₀) sin(θ - θ₀) + height (1 - cos(θ - θ₀)) with the least height that does it.
+Sinusoid touchingSinusoid(const SampledLimit& limit, double centre) {
+  const auto [value, slope, curvature] = squaredLimitAt(limit.limit, centre);
+  // So close to the centre [rad] the quotient drowns in rounding; it tends to the curvature, on either side.
+  const double touching = 0.05 * limit.spacing;
+  const double atCentre = std::max(curvature, squaredLimitAt(limit.limit, centre - 1e-6 * touching).curvature);
+  const auto heightFor = [&](double angle) {
+    const double offset = angle - centre, half = std::sin(offset);
+    if (std::abs(half) < touching) return atCentre;
+    return (limit.squaredAt(angle) - value - slope * std::sin(2 * offset)) / (2 * half * half);
+  };
+  const double height = std::max(atCentre, largestOverDirections(limit.angles, heightFor));
+  const double doubled = 2 * centre;
+  return {value + height, -height * std::cos(doubled) - slope * std::sin(doubled),
+          -height * std::sin(doubled) + slope * std::cos(doubled)};
 }
 
 }  // namespace
 
-LimitConstraints exactConstraints(const StretchLimit& limit) {
-  if (const auto* isotropic = std::get_if<IsotropicLimit>(&limit))
-    return {{isotropic->stretch * isotropic->stretch * Eigen::Matrix2d::Identity()}, {}, 0};
-  const auto& [first, second, angle] = std::get<OrthotropicLimit>(limit);
-  const double mean = (first * first + second * second) / 2, half = (first * first - second * second) / 2;
-  return {{Sinusoid{mean, half * std::cos(2 * angle), half * std::sin(2 * angle)}.matrix()}, {}, 0};
-}
+LimitConstraints exactConstraints(const StretchLimit& limit) { return {{sinusoidOf(limit).matrix()}, {}, 0}; }
 
 LimitConstraints directionConstraints(const StretchLimit& limit, int count) {
   requireCount(count, 2);
@@ -97,42 +143,25 @@ LimitConstraints directionConstraints(const StretchLimit& limit, int count) {
     const double angle = pi * i / count;
     constraints.directions.push_back({angle, stretchAt(limit, angle)});
   }
-  constraints.overshoot = worstOvershoot(constraints.directions, squaredLimitsOf(limit));
+  constraints.overshoot = worstOvershoot(constraints.directions, SampledLimit(limit));
   return constraints;
 }
 
 LimitConstraints ellipseConstraints(const StretchLimit& limit, int count) {
   requireCount(count, 1);
-  const std::vector<double> squaredLimits = squaredLimitsOf(limit);
-  std::vector<Sinusoid> envelope;
+  const SampledLimit sampled(limit);
+  std::vector<Sinusoid> sinusoids;
   LimitConstraints constraints;
   for (int k = 0; k < count; ++k) {
-    // s(θ) = b²(θ₀) + slope sin(θ - θ₀) + height (1 - cos(θ - θ₀)), with the least height that keeps it above b².
-    const double centre = 2 * pi * k / count;
-    const auto squaredLimit = [&](double doubled) {
-      const double stretch = stretchAt(limit, doubled / 2);
-      return stretch * stretch;
-    };
-    constexpr double h = 1e-4;
-    const double value = squaredLimit(centre);
-    const double slope = (squaredLimit(centre + h) - squaredLimit(centre - h)) / (2 * h);
-    double height = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < fineSamples; ++i) {
-      const double offset = 2 * pi * i / fineSamples - centre;
-      const double rise = 1 - std::cos(offset);
-      if (rise < 1e-5) continue;  // at the centre itself both sides touch
-      height = std::max(height, (squaredLimits[i] - value - slope * std::sin(offset)) / rise);
-    }
-    const Sinusoid sinusoid{value + height, -height * std::cos(centre) - slope * std::sin(centre),
-                            -height * std::sin(centre) + slope * std::cos(centre)};
-    envelope.push_back(sinusoid);
-    constraints.ellipses.push_back(sinusoid.matrix());
+    sinusoids.push_back(touchingSinusoid(sampled, pi * k / count));
+    constraints.ellipses.push_back(sinusoids.back().matrix());
   }
-  for (int i = 0; i < fineSamples; ++i) {
+  const double largest = largestOverDirections(sampled.angles, [&](double angle) {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const Sinusoid& sinusoid : envelope) lowest = std::min(lowest, sinusoid.at(2 * pi * i / fineSamples));
-    constraints.overshoot = std::max(constraints.overshoot, std::sqrt(lowest / squaredLimits[i]) - 1);
-  }
+    for (const Sinusoid& sinusoid : sinusoids) lowest = std::min(lowest, sinusoid.at(2 * angle));
+    return lowest / sampled.squaredAt(angle);
+  });
+  constraints.overshoot = std::sqrt(std::max(1.0, largest)) - 1;
   return constraints;
 }
 

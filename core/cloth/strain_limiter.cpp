@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/cloth/direction_search.hpp"
 #include "core/cloth/gauss_seidel.hpp"
 #include "core/cloth/nonlinear_program.hpp"
 
@@ -15,6 +17,8 @@ namespace pliant::cloth {
 namespace {
 
 constexpr int ratioSamples = 360;  ///< directions at which a curve is compared with what is reached
+/// How far below its maximum a squared ratio may be at the nearest of them.
+constexpr double largestRatioDip = 0.01;
 
 class ConeLimiter final : public StrainLimiter {
  public:
@@ -32,13 +36,48 @@ class ConeLimiter final : public StrainLimiter {
   solvers::ConeProgramOptions options_;
 };
 
-/// Largest λ with det(C - λ S) = 0, S positive definite: the largest dᵀCd / dᵀSd.
-double largestRatio(const Eigen::Matrix2d& metric, const Eigen::Matrix2d& bound) {
-  const double a = bound.determinant();
-  const double half =
-      0.5 * (metric(0, 0) * bound(1, 1) + metric(1, 1) * bound(0, 0) - 2 * metric(0, 1) * bound(0, 1)) / a;
-  return half + std::sqrt(std::max(0.0, half * half - metric.determinant() / a));
+/// The largest dᵀCd / b² over all directions for an isotropic or orthotropic limit: the larger eigenvalue of C in
+/// coordinates in which the limit is a unit circle. (As a root of det(C - λS) it would lose half its digits where both
+/// are nearly the same.)
+double largestRatio(const Eigen::Matrix2d& metric, const StretchLimit& limit) {
+  Eigen::Matrix2d scaled = metric;
+  if (const auto* isotropic = std::get_if<IsotropicLimit>(&limit)) {
+    scaled /= isotropic->stretch * isotropic->stretch;
+  } else {
+    const auto& [first, second, angle] = std::get<OrthotropicLimit>(limit);
+    const Eigen::Matrix2d axes{
+        {std::cos(angle) / first, -std::sin(angle) / second}, {std::sin(angle) / first, std::cos(angle) / second}};
+    scaled = axes.transpose() * metric * axes;
+  }
+  return (scaled(0, 0) + scaled(1, 1)) / 2 + std::hypot((scaled(0, 0) - scaled(1, 1)) / 2, scaled(0, 1));
 }
+
+/// The same for a curve, at directions chosen once and then between those that come out highest.
+class CurveRatio {
+ public:
+  explicit CurveRatio(const LimitCurve& curve) : curve_(curve), angles_(samplingAngles(curve, ratioSamples)) {
+    for (const double angle : angles_) {
+      const double inverse = 1 / curve(angle);
+      samples_.emplace_back(std::cos(angle) * inverse, std::sin(angle) * inverse);
+    }
+    values_.resize(angles_.size());
+  }
+
+  double operator()(const Eigen::Matrix2d& metric) {
+    for (std::size_t i = 0; i < samples_.size(); ++i) values_[i] = samples_[i].dot(metric * samples_[i]);
+    return largestOverDirections(angles_, values_, largestRatioDip, [&](double angle) {
+      const Eigen::Vector2d d(std::cos(angle), std::sin(angle));
+      const double stretch = curve_(angle);
+      return d.dot(metric * d) / (stretch * stretch);
+    });
+  }
+
+ private:
+  const LimitCurve& curve_;
+  std::vector<double> angles_;
+  std::vector<Eigen::Vector2d> samples_;  ///< d / b
+  std::vector<double> values_;
+};
 
 }  // namespace
 
@@ -65,32 +104,19 @@ Eigen::Matrix<double, 3, 2> deformationGradient(const SheetTriangle& triangle, c
 }
 
 Eigen::VectorXd stretchRatios(const LimitedSheet& sheet, const Eigen::Matrix3Xd& positions) {
-  struct Sample {
-    double mean, cosine, sine;  // of dᵀCd / b²
-  };
-  std::vector<std::vector<Sample>> samples(sheet.limits.size());
-  for (std::size_t l = 0; l < sheet.limits.size(); ++l) {
-    if (!std::holds_alternative<LimitCurve>(sheet.limits[l])) continue;
-    for (int i = 0; i < ratioSamples; ++i) {
-      const double angle = std::numbers::pi * i / ratioSamples;
-      const double stretch = stretchAt(sheet.limits[l], angle), inverse = 1 / (stretch * stretch);
-      samples[l].push_back({inverse, std::cos(2 * angle) * inverse, std::sin(2 * angle) * inverse});
-    }
-  }
+  std::map<int, CurveRatio> curves;
+  for (std::size_t l = 0; l < sheet.limits.size(); ++l)
+    if (const auto* curve = std::get_if<LimitCurve>(&sheet.limits[l]))
+      curves.emplace(static_cast<int>(l), CurveRatio(*curve));
   Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(sheet.triangles.size()));
   for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
     const SheetTriangle& triangle = sheet.triangles[t];
     if (triangle.limit < 0) continue;
     const Eigen::Matrix<double, 3, 2> f = deformationGradient(triangle, positions);
     const Eigen::Matrix2d metric = f.transpose() * f;
-    double squared = 0;
-    if (samples[triangle.limit].empty()) {
-      squared = largestRatio(metric, exactConstraints(sheet.limits[triangle.limit]).ellipses.front());
-    } else {
-      const double mean = (metric(0, 0) + metric(1, 1)) / 2, half = (metric(0, 0) - metric(1, 1)) / 2;
-      for (const Sample& sample : samples[triangle.limit])
-        squared = std::max(squared, mean * sample.mean + half * sample.cosine + metric(0, 1) * sample.sine);
-    }
+    const auto curve = curves.find(triangle.limit);
+    const double squared =
+        curve != curves.end() ? curve->second(metric) : largestRatio(metric, sheet.limits[triangle.limit]);
     ratios[static_cast<Eigen::Index>(t)] = std::sqrt(squared);
   }
   return ratios;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/base/error.hpp"
@@ -14,8 +15,8 @@ constexpr double pi = std::numbers::pi;
 
 /// Into [0, π).
 double halfTurn(double angle) {
-  const double turned = angle - pi * std::floor(angle / pi);
-  return turned < pi ? turned : 0;
+  const double turned = angle - pi * std::floor(angle / pi);  // rounding may put it on either side of a boundary
+  return turned >= 0 && turned < pi ? turned : 0;
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ LimitCurve::LimitCurve(std::vector<DirectionLimit> points) : points_(std::move(p
   const auto width = [&](std::size_t i) {
     return i + 1 < count ? points_[i + 1].angle - points_[i].angle : points_[0].angle + pi - points_[i].angle;
   };
-  for (std::size_t i = 0; i + 1 < count; ++i)
+  for (std::size_t i = 0; i < count; ++i)  // the last and the first are neighbours as well
     if (width(i) < 1e-9)
       throw base::InputError("", "Two points of the limit curve have the same direction, " +
                                      std::to_string(points_[i].angle * 180 / pi) + " degrees.");
@@ -52,7 +53,7 @@ LimitCurve::LimitCurve(std::vector<DirectionLimit> points) : points_(std::move(p
   }
 }
 
-double LimitCurve::operator()(double angle) const {
+LimitCurve::Piece LimitCurve::pieceAt(double angle) const {
   const double at = halfTurn(angle);
   const auto above = std::upper_bound(points_.begin(), points_.end(), at,
                                       [](double value, const DirectionLimit& point) { return value < point.angle; });
@@ -61,10 +62,25 @@ double LimitCurve::operator()(double angle) const {
   const std::size_t first = (index + count - 1) % count, second = index % count;
   const double begin = index == 0 ? points_[first].angle - pi : points_[first].angle;
   const double end = index == count ? points_[second].angle + pi : points_[second].angle;
-  const double h = end - begin, t = (at - begin) / h;
-  const double difference = points_[second].stretch - points_[first].stretch;
-  return points_[first].stretch + difference * t * t * (3 - 2 * t) +
-         h * t * (1 - t) * (slopes_[first] * (1 - t) - slopes_[second] * t);
+  const double width = end - begin;
+  return {
+      points_[first].stretch, points_[second].stretch, slopes_[first], slopes_[second], width, (at - begin) / width};
+}
+
+double LimitCurve::operator()(double angle) const {
+  const auto [begin, end, slopeBegin, slopeEnd, width, t] = pieceAt(angle);
+  return begin + (end - begin) * t * t * (3 - 2 * t) + width * t * (1 - t) * (slopeBegin * (1 - t) - slopeEnd * t);
+}
+
+double LimitCurve::slope(double angle) const {
+  const auto [begin, end, slopeBegin, slopeEnd, width, t] = pieceAt(angle);
+  return 6 * (end - begin) / width * t * (1 - t) + slopeBegin * (1 - t) * (1 - 3 * t) + slopeEnd * t * (3 * t - 2);
+}
+
+double LimitCurve::curvature(double angle) const {
+  const auto [begin, end, slopeBegin, slopeEnd, width, t] = pieceAt(angle);
+  return 6 * (end - begin) / (width * width) * (1 - 2 * t) +
+         (slopeBegin * (6 * t - 4) + slopeEnd * (6 * t - 2)) / width;
 }
 
 double stretchAt(const StretchLimit& limit, double angle) {

@@ -33,10 +33,22 @@ class LimitCurve {
 
   /// b(α).
   double operator()(double angle) const;
+  /// db/dα, which is continuous.
+  double slope(double angle) const;
+  /// d²b/dα², which jumps at the points; there it is that of the piece that begins.
+  double curvature(double angle) const;
   /// With angles in [0, π), ascending.
   const std::vector<DirectionLimit>& points() const { return points_; }
 
  private:
+  struct Piece {
+    double begin, end;            ///< b at its ends
+    double slopeBegin, slopeEnd;  ///< db/dα there
+    double width;                 ///< [rad]
+    double place;                 ///< of the direction asked for, from 0 to 1
+  };
+  Piece pieceAt(double angle) const;
+
   std::vector<DirectionLimit> points_;
   std::vector<double> slopes_;  ///< db/dα at each point
 };

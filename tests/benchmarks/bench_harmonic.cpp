@@ -1,5 +1,5 @@
-/// `pliant-bench harmonic [--json FILE]`: every motion and curve of every scene in scenes/harmonic, timed, with the
-/// part of the time that its evaluations, factorisations and solves took.
+#include "tests/benchmarks/bench_harmonic.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -9,12 +9,12 @@
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/frequency_response.hpp"
 #include "core/scene/model_builder.hpp"
-#include "tests/benchmarks/bench_program.hpp"
 #include "tests/benchmarks/bench_scaling.hpp"
+
+namespace pliant::bench {
 
 namespace {
 
-using namespace pliant;
 using scene::Json;
 
 struct Run {
@@ -63,7 +63,9 @@ Json rowOf(const scene::Scene& scene, const std::string& sceneName, const Json& 
   return row;
 }
 
-Json measure() {
+}  // namespace
+
+Json measureHarmonic() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes/harmonic"))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
@@ -78,10 +80,8 @@ Json measure() {
           (study["type"] == "periodic_motion" || study["type"] == "frequency_response"))
         rows.push_back(rowOf(scene, file.stem().string(), study));
   }
-  bench::measureNewtonIterations(rows);
+  measureNewtonIterations(rows);
   return rows;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) { return pliant::bench::runBenchmark(argc, argv, "harmonic", measure); }
+}  // namespace pliant::bench

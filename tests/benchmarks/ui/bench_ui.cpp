@@ -88,5 +88,5 @@ Json measure() {
 
 int main(int argc, char** argv) {
   QApplication application(argc, argv);
-  return pliant::bench::runBenchmark(argc, argv, "ui", measure);
+  return pliant::bench::runBenchmark(argc, argv, {{"ui", measure}});
 }
