@@ -19,9 +19,10 @@ namespace {
 
 constexpr double barrierReduction = 0.2;
 constexpr double firstBarrier = 1;  ///< times the objective over the number of bounds
-/// Newton's method moves on to the next barrier when what is left to gain is this part of what the bounds cost.
-constexpr double centred = 1e-2;
-constexpr double finallyCentred = 1e-12;
+/// Newton's method moves on to the next barrier when what is left to gain is this part of what one bound costs: only then
+/// is every one of them where this barrier wants it.
+constexpr double centred = 0.1;
+constexpr double finallyCentred = 1e-6;
 constexpr double smallestSlack = 1e-9;
 constexpr double largestInertia = 1e20;
 constexpr int mostNewtonSteps = 60;  ///< for one barrier
@@ -30,6 +31,7 @@ constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
 constexpr int mostStuck = 10;
 constexpr int stepsBetweenMoves = 20;  ///< with which the sheet gets out of the way
 constexpr double armijo = 1e-4;
+constexpr double drownedDecrease = 1e-12;  ///< of the value
 
 }  // namespace
 
@@ -106,8 +108,8 @@ struct ContactProjection::Implementation {
     return cholesky->factorize();
   }
 
-  /// One Newton step with line search from `x`, whose value is `energy`. Returns half the squared decrement, or nothing
-  /// if no step lowers the value.
+  /// One Newton step with line search from `x`, whose value is `energy`. Returns half the squared decrement (0 if
+  /// it drowns in rounding), or nothing if no step lowers the value.
   std::optional<double> newtonStep(Positions& x, double barrier, double& energy) {
     layOut();
     elements->centre(x, barrier);
@@ -144,8 +146,10 @@ struct ContactProjection::Implementation {
         return 0.5 * decrement;
       }
     }
+    // What is left to gain may drown in the rounding of the value.
+    const bool drowned = decrement <= drownedDecrease * std::abs(energy);
     energy = value(x, barrier);  // and the contacts as they are at x
-    return std::nullopt;
+    return drowned ? std::optional<double>(0) : std::nullopt;
   }
 
   /// Moves bodies and held nodes on, and the sheet out of their way. False if they get stuck.
@@ -177,7 +181,7 @@ struct ContactProjection::Implementation {
       double energy = value(x, barrier);
       for (int k = 0; k < stepsBetweenMoves; ++k) {
         const std::optional<double> decrement = newtonStep(x, barrier, energy);
-        if (!decrement || *decrement <= centred * barrier * elements->boundCount()) break;
+        if (!decrement || *decrement <= centred * barrier) break;
       }
     }
     return false;
@@ -268,7 +272,7 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
     // Nearer to the limits the next step could not start: the barrier's Hessian would lose all digits.
     const bool close = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least);
     const bool last = close || own.elements->smallestSlack() < smallestSlack;
-    const double enough = (last ? finallyCentred : centred) * barrier * bounds;
+    const double enough = (last ? finallyCentred : centred) * barrier;
     double energy = own.value(x, barrier);
     bool reachedEnough = false;
     for (int k = 0; k < mostNewtonSteps && !reachedEnough; ++k) {
