@@ -51,7 +51,8 @@ double largestOverDirections(const std::vector<double>& angles, const std::vecto
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
     if (values[i] < values[before] || values[i] < values[after] || values[i] < highest - slack) continue;
-    if (values[i] == values[before] && values[i] == values[after]) continue;  // flat
+    // A maximum in between is hardly higher above this than this above its neighbours, which may be but rounding.
+    if (values[i] - std::min(values[before], values[after]) <= 1e-13 * std::abs(values[i])) continue;
     const double begin = i > 0 ? angles[before] : angles[before] - std::numbers::pi;
     const double end = i + 1 < count ? angles[after] : angles[after] + std::numbers::pi;
     largest = std::max(largest, largestBetween(begin, end, function));
