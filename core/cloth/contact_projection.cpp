@@ -19,8 +19,8 @@ namespace {
 
 constexpr double barrierReduction = 0.2;
 constexpr double firstBarrier = 1;  ///< times the objective over the number of bounds
-/// Newton's method moves on to the next barrier when what is left to gain is this part of what one bound costs: only then
-/// is every one of them where this barrier wants it.
+/// Newton's method moves on to the next barrier when what is left to gain is this part of what one bound costs: only
+/// then is every one of them where this barrier wants it.
 constexpr double centred = 0.1;
 constexpr double finallyCentred = 1e-6;
 constexpr double smallestSlack = 1e-9;
