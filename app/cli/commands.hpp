@@ -39,7 +39,7 @@ struct MotionOptions {
   std::string out;
   std::string result;  ///< folder that `run` wrote; empty: the rest shape
   std::string study;   ///< empty: the first of the scene that has a result
-  std::string time = "0 s";
+  std::string time;    ///< empty: not given
 };
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);

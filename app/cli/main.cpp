@@ -23,7 +23,8 @@ void addMotion(CLI::App* verb, MotionOptions& motion) {
   addScene(verb, motion.scene);
   verb->add_option("--result", motion.result, "Folder that `run` wrote; without it, the rest shape");
   verb->add_option("--study", motion.study, "Study whose motion is shown; else the first that has a result");
-  verb->add_option("--time", motion.time, "Time within the period, such as 0.1 or \"20 ms\"")->capture_default_str();
+  verb->add_option(
+      "--time", motion.time, "Time within the period, such as 0.1 or \"20 ms\" (0), or of a cloth (its last frame)");
 }
 
 int runProgram(int argc, char** argv) {

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "app/cli/commands.hpp"
 #include "core/base/error.hpp"
@@ -13,6 +16,7 @@
 #include "core/scene/study.hpp"
 #ifdef PLIANT_HAS_RENDERER
 #include "ui/render/chart_picture.hpp"
+#include "ui/render/image.hpp"
 #include "ui/render/offscreen.hpp"
 #endif
 
@@ -29,6 +33,8 @@ struct Moment {
   mechanics::Vector z;
   double tau = 0;
   std::string caption;
+  std::shared_ptr<const scene::ClothResult> cloth;  ///< or null
+  std::shared_ptr<const scene::ClothFrame> frame;   ///< of the cloth
 };
 
 /// Empty if there is no result.
@@ -68,10 +74,11 @@ void warnOfChange(const scene::Scene& scene, const scene::Result& result, const 
 
 /// The frame nearest to `time`, as a model that rests there.
 void takeClothFrame(const scene::Scene& scene, const std::filesystem::path& folder, double time, Moment& moment) {
-  const auto result = scene::ClothResult::read(scene, folder);
+  auto result = scene::ClothResult::read(scene, folder);
   if (result->frames.empty()) throw InputError(folder.string(), "This result has no frames.");
   warnOfChange(scene, *result, folder);
-  const scene::ClothFrame& frame = result->frameAt(time);
+  moment.frame = result->frameAt(time);
+  const scene::ClothFrame& frame = *moment.frame;
   auto model = std::make_shared<mechanics::Model>(*result->problem->model);
   model->restPositions = frame.positions.reshaped();
   moment.model = std::move(model);
@@ -79,15 +86,16 @@ void takeClothFrame(const scene::Scene& scene, const std::filesystem::path& fold
       (moment.caption.empty() ? "" : "\n") + result->provenance.study +
       (result->studyType() == "cloth_motion" ? ", t = " + base::formatQuantity(frame.time, base::dimensions::time)
                                              : std::string());
+  moment.cloth = std::move(result);
 }
 
 Moment findMoment(const MotionOptions& options) {
   const auto scene = scene::Scene::load(options.scene);
   Moment moment;
   moment.caption = scene.normalized()["title"];
-  double time = 0;
+  std::optional<double> time;
   try {
-    time = base::parseQuantity(options.time, base::dimensions::time);
+    if (!options.time.empty()) time = base::parseQuantity(options.time, base::dimensions::time);
   } catch (const InputError& error) {
     throw InputError("--time", error.problem());
   }
@@ -98,7 +106,7 @@ Moment findMoment(const MotionOptions& options) {
   const std::string study = studyWithResult(scene, options);
   const auto folder = std::filesystem::path(options.result) / study;
   if (kindOfResult(folder) == "cloth") {
-    takeClothFrame(scene, folder, time, moment);
+    takeClothFrame(scene, folder, time.value_or(std::numeric_limits<double>::max()), moment);
     return moment;
   }
   const auto result = scene::HarmonicResult::read(scene, folder);
@@ -108,7 +116,7 @@ Moment findMoment(const MotionOptions& options) {
   moment.model = result->problem->sharedModel();
   moment.problem = result->problemOf(point);
   moment.z = point.z;
-  moment.tau = std::fmod(point.omega / point.drivePeriods * time, 2 * std::numbers::pi);
+  moment.tau = std::fmod(point.omega / point.drivePeriods * time.value_or(0), 2 * std::numbers::pi);
   moment.caption += (moment.caption.empty() ? "" : "\n") + study +
                     ", ω = " + base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
                     ", H = " + std::to_string(result->problem->basis().harmonics()) + ", residual " +
@@ -152,7 +160,10 @@ ExitStatus render(const MotionOptions& options, const std::string& size) {
   const Moment moment = findMoment(options);
   picture.caption = moment.caption;
   if (moment.model->dimension < 3) picture.view = render::AxisView::top;  // as in the window
-  render::renderToPng(moment.model, moment.problem, moment.z, moment.tau, picture, options.out);
+  if (moment.cloth)
+    render::writePng(render::renderToImage(moment.cloth->problem, {moment.frame}, picture), options.out);
+  else
+    render::renderToPng(moment.model, moment.problem, moment.z, moment.tau, picture, options.out);
   std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
   return done;
 }

@@ -73,8 +73,8 @@ Json probePlaces(const mechanics::Model& model, const ClothFrame& frame) {
 
 std::string ClothResult::studyType() const { return provenance.options.value("type", ""); }
 
-const ClothFrame& ClothResult::frameAt(double time) const {
-  return **std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
+std::shared_ptr<const ClothFrame> ClothResult::frameAt(double time) const {
+  return *std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
     return std::abs(a->time - time) < std::abs(b->time - time);
   });
 }

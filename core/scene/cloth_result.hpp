@@ -46,7 +46,7 @@ class ClothResult final : public Result {
   /// "cloth_motion", "cloth_drape" or "projection".
   std::string studyType() const;
   /// The frame nearest to `time`; there must be one.
-  const ClothFrame& frameAt(double time) const;
+  std::shared_ptr<const ClothFrame> frameAt(double time) const;
 
   std::shared_ptr<const cloth::ClothProblem> problem;
   std::vector<std::shared_ptr<const ClothFrame>> frames;
