@@ -29,6 +29,7 @@ constexpr double stallingStep = 0.05;
 constexpr int mostStalls = 3;
 constexpr int mostRestarts = 2;  ///< with a larger barrier
 
+constexpr double largestInertia = 1e8;
 constexpr int mostAttempts = 40;  ///< to find by how much the limits would have to be looser
 
 std::string percentText(double fraction) {
@@ -177,7 +178,7 @@ struct ConeProgram::Implementation {
     return sum;
   }
 
-  void addMasses() {
+  void addMasses(double inertia) {
     double* values = cholesky.values();
     for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
       for (int i = 0; i < 3; ++i)
@@ -192,7 +193,7 @@ struct ConeProgram::Implementation {
     Positions forces = Positions::Zero(3, constraints.nodeCount);
     cholesky.clear();
     elements.addLaplacian(stiffness, displacement, forces, cholesky);
-    addMasses();
+    addMasses(1);
     if (cholesky.factorize()) {
       solve(-forces, displacement);
       x = start + displacement;
@@ -314,14 +315,23 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
       return finish(base::TerminationType::iterationLimit,
                     "The projection did not converge in " + std::to_string(iteration) + " iterations.");
 
-    addMasses();
-    if (!cholesky.factorize())
-      return finish(base::TerminationType::failed, "The projection's linear system is singular to working precision.");
+    // Very near to the optimum the matrix may lose its small eigenvalues to rounding; more inertia keeps them.
+    double inertia = 1;
+    for (addMasses(inertia); !cholesky.factorize(); addMasses(inertia)) {
+      inertia *= 100;
+      if (inertia > largestInertia)
+        return finish(
+            base::TerminationType::failed, "The projection's linear system is singular to working precision.");
+      forces.setZero();
+      predictorForces.setZero();
+      cholesky.clear();
+      elements.linearize(x, forces, predictorForces, cholesky);
+    }
 
     elements.clearCorrection();
     const double barrier = at.complementarity / elements.boundCount();
     // Where the gap is closed and only the residual is left, a smaller barrier would but cost digits.
-    const bool closed = std::abs(gap) <= 0.1 * options.relativeGap * solution.objective;
+    const bool closed = std::abs(gap) <= options.relativeGap * solution.objective;
     double target = barrier;
     if (!closed) {
       right = -(gradient + predictorForces);

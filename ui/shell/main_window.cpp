@@ -65,6 +65,8 @@ MainWindow::MainWindow(bool remember, QWidget* parent)
   resizeDocks({docks_[0], docks_[1]}, {288, 320}, Qt::Horizontal);
   resizeDocks({docks_[3]}, {312}, Qt::Vertical);
   setDocksVisible(false);
+  layout()->activate();  // or what docks asked for that are hidden now would still widen the window
+  resize(sizeHint());
   refreshTitle();
   refreshActions();
   if (remember_) restoreSettings();

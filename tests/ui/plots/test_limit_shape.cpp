@@ -189,7 +189,9 @@ class TestLimitShape : public QObject {
       QVERIFY(excess >= 1 - 1e-5);  // slopes are finite differences
       largest = std::max(largest, excess);
     }
-    QVERIFY(std::abs(largest - 1 - constraints.overshoot) < 1e-9);
+    // The largest lies in a corner of the envelope, at most half a sample (1.1e-3) off; slopes are below 0.5.
+    QVERIFY(largest - 1 <= constraints.overshoot + 1e-12);
+    QVERIFY(largest - 1 >= constraints.overshoot - 0.5 * 1.1e-3);
     QVERIFY(std::isinf(cloth::envelopeStretch(cloth::directionConstraints(limit, 6), 0.3)));
   }
 
