@@ -105,6 +105,8 @@ void ContactBarrier::findCandidates(const Matrix3Xd& x) {
   const double margin = options_.range;
   if (candidatesAt_.cols() == x.cols() && (x - candidatesAt_).colwise().norm().maxCoeff() <= 0.5 * margin) return;
   candidates_ = primitives_.nearPairs(x, x, options_.separation + options_.range + margin);
+  // So that sums do not depend on where the candidates were found.
+  std::sort(candidates_.begin(), candidates_.end());
   candidatesAt_ = x;
 }
 
@@ -123,8 +125,6 @@ void ContactBarrier::update(const Matrix3Xd& x) {
     const double scale = edges ? geometry::edgeMollifierScale(cornersOf(pair, restPositions_)) : 0;
     active.push_back({pair, {corners, closest, gap, options_.stiffness, options_.range, scale}});
   });
-  // Sums do not depend on where the candidates were found.
-  std::sort(active_.begin(), active_.end(), [](const ActivePair& a, const ActivePair& b) { return a.pair < b.pair; });
 }
 
 double ContactBarrier::value() const {

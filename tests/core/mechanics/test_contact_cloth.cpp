@@ -135,10 +135,10 @@ void TestContactCloth::ballOfTrianglesMovesThrough() {
   };
   Matrix3Xd motion = Matrix3Xd::Zero(3, cloth.x.cols());
   motion.row(2).setConstant(0.03);
-  for (int i = 0; i < 7 && !QTest::currentTestFailed(); ++i) cloth.step(Vector3d::Zero(), motion, check);
-  QVERIFY(std::abs(cloth.x(2, cloth.x.cols() - 1) - scene.x(2, scene.x.cols() - 1) - 0.21) < 1e-9);  // all the way
-  // The ball's top is at 0.17: it has taken the sheet's middle along.
-  QVERIFY(cloth.x.row(2).head(81).maxCoeff() > 0.17);
+  for (int i = 0; i < 5 && !QTest::currentTestFailed(); ++i) cloth.step(Vector3d::Zero(), motion, check);
+  QVERIFY(std::abs(cloth.x(2, cloth.x.cols() - 1) - scene.x(2, scene.x.cols() - 1) - 0.15) < 1e-9);  // all the way
+  // The ball's top is at 0.11: it has taken the sheet's middle along.
+  QVERIFY(cloth.x.row(2).head(81).maxCoeff() > 0.11);
 }
 
 void TestContactCloth::foldsOntoItself() {
