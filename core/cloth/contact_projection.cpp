@@ -31,7 +31,7 @@ constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
 constexpr int mostStuck = 10;
 constexpr int stepsBetweenMoves = 20;  ///< with which the sheet gets out of the way
 constexpr double armijo = 1e-4;
-constexpr double drownedDecrease = 1e-12;  ///< of the value
+constexpr double drownedGain = 1e-12;  ///< of the value
 
 }  // namespace
 
@@ -147,7 +147,7 @@ struct ContactProjection::Implementation {
       }
     }
     // What is left to gain may drown in the rounding of the value.
-    const bool drowned = decrement <= drownedDecrease * std::abs(energy);
+    const bool drowned = decrement <= drownedGain * std::abs(energy);
     energy = value(x, barrier);  // and the contacts as they are at x
     return drowned ? std::optional<double>(0) : std::nullopt;
   }

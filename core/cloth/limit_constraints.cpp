@@ -9,7 +9,7 @@ namespace pliant::cloth {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int fineSamples = 1440;  ///< directions at which curves are compared
 /// Of a ratio of squared stretches between two neighbouring directions, below its maximum.
 constexpr double largestDip = 0.01;
@@ -117,7 +117,8 @@ double worstOvershoot(const std::vector<DirectionLimit>& directions, const Sampl
 /// The flattest sinusoid that touches b² in the direction `centre` and is above it everywhere else:
 /// s(θ) = b²(θ₀) + (b²)'(θ₀) sin(θ - θ₀) + height (1 - cos(θ - θ₀)) with the least height that does it.
 Sinusoid touchingSinusoid(const SampledLimit& limit, double centre) {
-  const auto [value, slope, curvature] = squaredLimitAt(limit.limit, centre);
+  const auto here = squaredLimitAt(limit.limit, centre);
+  const double value = here.value, slope = here.slope, curvature = here.curvature;
   // So close to the centre [rad] the quotient drowns in rounding; it tends to the curvature, on either side.
   const double touching = 0.05 * limit.spacing;
   const double atCentre = std::max(curvature, squaredLimitAt(limit.limit, centre - 1e-6 * touching).curvature);
@@ -167,10 +168,11 @@ LimitConstraints ellipseConstraints(const StretchLimit& limit, int count) {
 
 LimitConstraints limitConstraints(const StretchLimit& limit, int count) {
   if (!std::holds_alternative<LimitCurve>(limit)) return exactConstraints(limit);
-  const LimitConstraints ellipses = ellipseConstraints(limit, count);
+  LimitConstraints ellipses = ellipseConstraints(limit, count);
   if (count < 2) return ellipses;
-  const LimitConstraints directions = directionConstraints(limit, count);
-  return directions.overshoot < ellipses.overshoot ? directions : ellipses;
+  LimitConstraints directions = directionConstraints(limit, count);
+  if (directions.overshoot < ellipses.overshoot) return directions;
+  return ellipses;
 }
 
 }  // namespace pliant::cloth

@@ -11,7 +11,7 @@ namespace pliant::cloth {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Into [0, π).
 double halfTurn(double angle) {

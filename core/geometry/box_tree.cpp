@@ -59,7 +59,7 @@ void BoxTree::build(std::span<const Box> boxes) {
   order_.resize(count);
   boxes_.resize(count);
   for (int place = 0; place < count; ++place) {
-    order_[place] = codes_[place].box;
+    order_[place] = codes_[place].second;
     boxes_[place] = boxes[order_[place]];
   }
   std::size_t level = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pliant::geometry {
@@ -32,19 +33,13 @@ class BoxTree {
   Pairs ownPairs(const Filter& wanted) const;
 
  private:
-  struct Code {
-    std::uint64_t code;
-    int box;
-    auto operator<=>(const Code&) const = default;
-  };
-
   void sortBoxes(std::span<const Box> boxes);
   Pairs findPairs(const BoxTree& other, const Filter& wanted) const;
   void findPairsOfRun(int run, const BoxTree& other, const Filter& wanted, Pairs& pairs) const;
 
-  std::vector<Code> codes_;
-  std::vector<int> order_;  ///< place -> box
-  std::vector<Box> boxes_;  ///< by place
+  std::vector<std::pair<std::uint64_t, int>> codes_;  ///< place on the curve and box
+  std::vector<int> order_;                            ///< place -> box
+  std::vector<Box> boxes_;                            ///< by place
   /// levels_[0] bounds runs of boxes that follow one another; node n of level k + 1 bounds 2n and 2n + 1 of level k.
   std::vector<std::vector<Box>> levels_;
 };

@@ -22,7 +22,7 @@ inline void addRun(int length, const double* __restrict source, double* __restri
 }
 
 constexpr int tasksWanted = 8;
-constexpr double parallelWork = 5e6;  ///< below which threads cost more than they save
+constexpr double parallelFrontWork = 5e6;  ///< below which threads cost more than they save
 
 SupernodeTree chooseFronts(const BlockPattern& pattern) {
   std::optional<SupernodeTree> best;
@@ -106,7 +106,7 @@ void BlockCholesky::chooseTasks(const std::vector<double>& work) {
   double total = 0;
   for (int f = 0; f < count; ++f)
     if (fronts_[f].parent < 0) total += subtree[f];
-  const double share = total > parallelWork ? total / tasksWanted : total + 1;
+  const double share = total > parallelFrontWork ? total / tasksWanted : total + 1;
   for (int f = count - 1; f >= 0; --f) {
     const int parent = fronts_[f].parent;
     if (parent >= 0 && fronts_[parent].task >= 0) {

@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/geometry/continuous_collision.hpp"
 #include "core/geometry/triangle_intersection.hpp"
 #include "core/math/parallel.hpp"
+#include "core/mechanics/checks.hpp"
 
 namespace pliant::mechanics {
 
@@ -50,20 +52,13 @@ double smallestInChunks(std::size_t count, double limit, const Body& body) {
   return limit;
 }
 
-void checkContactOptions(const ContactOptions& options) {
-  const auto require = [](bool valid, const char* what, double value) {
-    if (!valid || !std::isfinite(value)) throw base::InputError("", what + (", but is " + std::to_string(value)));
-  };
-  require(options.range > 0, "the range of contact must be above 0", options.range);
-  require(options.stiffness > 0, "the stiffness of contact must be above 0", options.stiffness);
-  require(options.separation >= 0, "the separation of surfaces must be 0 or more", options.separation);
-}
-
 }  // namespace
 
 ContactBarrier::ContactBarrier(ContactGeometry geometry, Matrix3Xd restPositions, const ContactOptions& options)
     : primitives_(std::move(geometry)), restPositions_(std::move(restPositions)), options_(options) {
-  checkContactOptions(options_);
+  requirePositive(options_.range, "the range of contact");
+  requirePositive(options_.stiffness, "the stiffness of contact");
+  requireNotNegative(options_.separation, "the separation of surfaces");
   if (restPositions_.cols() != primitives_.geometry().nodeCount())
     throw base::InputError("", "there are " + std::to_string(restPositions_.cols()) + " positions, but " +
                                    std::to_string(primitives_.geometry().nodeCount()) + " nodes that may touch");
@@ -93,9 +88,11 @@ void ContactBarrier::requireFree(const Matrix3Xd& x) const {
   for (const ContactPair& pair : primitives_.nearPairs(x, x, options_.separation)) {
     const auto closest = geometry::closestPoints(pair.kind, cornersOf(pair, x));
     if (gapOf(pair, closest) > 0) continue;
-    throw base::InputError("", nameOf(pair) + " are " + std::to_string(std::sqrt(closest.squaredDistance)) +
-                                   " m apart at the start, but " + "their radii and the separation need more than " +
-                                   std::to_string(primitives_.radiiOf(pair) + options_.separation) + " m");
+    std::ostringstream sentence;
+    sentence << nameOf(pair) << " are " << std::sqrt(closest.squaredDistance)
+             << " m apart at the start, but their radii "
+             << "and the separation need more than " << primitives_.radiiOf(pair) + options_.separation << " m";
+    throw base::InputError("", sentence.str());
   }
 }
 
@@ -105,6 +102,8 @@ void ContactBarrier::findCandidates(const Matrix3Xd& x) {
   const double margin = options_.range;
   if (candidatesAt_.cols() == x.cols() && (x - candidatesAt_).colwise().norm().maxCoeff() <= 0.5 * margin) return;
   candidates_ = primitives_.nearPairs(x, x, options_.separation + options_.range + margin);
+  // So that sums do not depend on where the candidates were found.
+  std::sort(candidates_.begin(), candidates_.end());
   candidatesAt_ = x;
 }
 
@@ -123,8 +122,6 @@ void ContactBarrier::update(const Matrix3Xd& x) {
     const double scale = edges ? geometry::edgeMollifierScale(cornersOf(pair, restPositions_)) : 0;
     active.push_back({pair, {corners, closest, gap, options_.stiffness, options_.range, scale}});
   });
-  // Sums do not depend on where the candidates were found.
-  std::sort(active_.begin(), active_.end(), [](const ActivePair& a, const ActivePair& b) { return a.pair < b.pair; });
 }
 
 double ContactBarrier::value() const {

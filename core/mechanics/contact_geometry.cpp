@@ -1,10 +1,10 @@
 #include "core/mechanics/contact_geometry.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "core/base/error.hpp"
+#include "core/mechanics/checks.hpp"
 
 namespace pliant::mechanics {
 
@@ -48,9 +48,7 @@ void checkContactGeometry(const ContactGeometry& geometry) {
     throw base::InputError("", "there are " + std::to_string(geometry.radii.size()) + " contact radii, but " +
                                    std::to_string(geometry.bodies.size()) + " nodes");
   for (int node = 0; node < geometry.nodeCount(); ++node) {
-    if (!(geometry.radii[node] >= 0) || !std::isfinite(geometry.radii[node]))
-      throw base::InputError("", "the contact radius of node " + std::to_string(node) + " must be 0 or more, but is " +
-                                     std::to_string(geometry.radii[node]));
+    requireNotNegative(geometry.radii[node], "the contact radius of node " + std::to_string(node));
     if (node > 0 && geometry.bodies[node] == 0 && geometry.bodies[node - 1] != 0)
       throw base::InputError("", "node " + std::to_string(node) +
                                      " is deformable and follows the node of a body, but deformable nodes come first");

@@ -36,7 +36,9 @@ struct ContactPair {
   std::array<int, 4> nodes = {-1, -1, -1, -1};  ///< as many as `kind` has corners
 
   bool operator==(const ContactPair&) const = default;
-  auto operator<=>(const ContactPair&) const = default;
+  bool operator<(const ContactPair& other) const {
+    return kind != other.kind ? kind < other.kind : nodes < other.nodes;
+  }
 };
 
 /// "node 3 and the triangle of nodes 4, 5 and 6"

@@ -84,7 +84,8 @@ class ClothBuilder {
       for (const int node : nodes) {
         if (!pinned.insert(node).second)
           throw InputError(pointer + "/at", "Node " + std::to_string(node) + " is pinned twice.");
-        for (int axis = 0; axis < 3; ++axis) model->lockedCoordinates[static_cast<std::size_t>(3 * node + axis)] = 0;
+        for (int axis = 0; axis < 3; ++axis)
+          model->lockedCoordinates[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)] = 0;
       }
       problem_.pins.push_back(std::move(pin));
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "core/math/packet.hpp"
 
@@ -55,7 +56,7 @@ inline SymmetricPacket solveSymmetricProduct(const SymmetricPacket& v, const Sym
 
 /// A linear map F from 2 to 3 dimensions, by columns.
 struct MapPacket {
-  Packet first[3], second[3];
+  std::array<Packet, 3> first, second;
 
   /// FᵀF.
   SymmetricPacket metric() const {

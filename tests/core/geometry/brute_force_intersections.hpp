@@ -29,7 +29,11 @@ inline int countIntersectionsByBruteForce(const Eigen::Matrix3Xd& points,
   int count = 0;
   for (const auto& [a, b, c] : triangles) {
     const Point normal = cross(difference(a, b), difference(a, c));
+    const Eigen::Array3d low = points.col(a).cwiseMin(points.col(b)).cwiseMin(points.col(c));
+    const Eigen::Array3d high = points.col(a).cwiseMax(points.col(b)).cwiseMax(points.col(c));
     for (const auto& [p, q] : edges) {
+      const Eigen::Array3d start = points.col(p), end = points.col(q);
+      if ((start < low && end < low).any() || (start > high && end > high).any()) continue;  // exact, and saves time
       const long double from = dot(normal, difference(a, p)), to = dot(normal, difference(a, q));
       if ((from > 0 && to > 0) || (from < 0 && to < 0) || (from == 0 && to == 0)) continue;
       if (a == p || b == p || c == p || a == q || b == q || c == q) continue;

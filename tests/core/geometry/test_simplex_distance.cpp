@@ -1,26 +1,18 @@
 #include <Eigen/Geometry>
 #include <QtTest>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <random>
 
-#include "core/geometry/simplex_distance.hpp"
+#include "tests/core/geometry/corner_differences.hpp"
 
 using namespace pliant::geometry;
 using Eigen::Vector3d;
 
 namespace {
 
-using Value = std::function<double(const Corners&)>;
-
 constexpr std::array allPairs = {
     SimplexPair::pointPoint, SimplexPair::pointEdge, SimplexPair::pointTriangle, SimplexPair::edgeEdge};
-
-Corners randomCorners(std::mt19937& random) {
-  std::uniform_real_distribution<double> coordinate(-1, 1);
-  return Corners::NullaryExpr([&] { return coordinate(random); });
-}
 
 /// Which corners have a part in the distance, as bits.
 int regionOf(const ClosestPoints& closest) {
@@ -75,29 +67,6 @@ void verifyOptimality(SimplexPair pair, const Corners& corners, const ClosestPoi
   }
 }
 
-CornerVector gradientByDifferences(const Value& value, const Corners& corners, double step) {
-  CornerVector gradient;
-  for (int i = 0; i < 12; ++i) {
-    Corners up = corners, down = corners;
-    up.reshaped()[i] += step;
-    down.reshaped()[i] -= step;
-    gradient[i] = (value(up) - value(down)) / (2 * step);
-  }
-  return gradient;
-}
-
-CornerMatrix hessianByDifferences(const std::function<CornerVector(const Corners&)>& gradient, const Corners& corners,
-                                  double step) {
-  CornerMatrix hessian;
-  for (int i = 0; i < 12; ++i) {
-    Corners up = corners, down = corners;
-    up.reshaped()[i] += step;
-    down.reshaped()[i] -= step;
-    hessian.col(i) = (gradient(up) - gradient(down)) / (2 * step);
-  }
-  return hessian;
-}
-
 }  // namespace
 
 class TestSimplexDistance : public QObject {
@@ -111,7 +80,6 @@ class TestSimplexDistance : public QObject {
   void nearlyParallelEdges();
   void derivativesInEveryRegion();
   void gradientIsContinuousAcrossRegions();
-  void mollifierDerivatives();
 };
 
 void TestSimplexDistance::closedForms() {
@@ -275,41 +243,6 @@ void TestSimplexDistance::gradientIsContinuousAcrossRegions() {
       QVERIFY2((after - before).norm() < 1e-4, qPrintable(QString::number((after - before).norm())));
     }
   QVERIFY(changes > 1000);
-}
-
-void TestSimplexDistance::mollifierDerivatives() {
-  std::mt19937 random(6);
-  int inside = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    Corners corners = randomCorners(random);
-    const double scale = edgeMollifierScale(corners);
-    const Vector3d a = corners.col(1) - corners.col(0), b0 = corners.col(3) - corners.col(2);
-    QVERIFY(std::abs(scale - 1e-3 * a.squaredNorm() * b0.squaredNorm()) <= 1e-15);
-    if (trial % 4) corners.col(3) = corners.col(2) + a + 0.02 * randomCorners(random).col(0);
-    const Vector3d b = corners.col(3) - corners.col(2);
-    const double ratio = a.cross(b).squaredNorm() / scale;
-    const double value = edgeMollifier(corners, scale, nullptr, nullptr);
-    QVERIFY(std::abs(value - (ratio < 1 ? (2 - ratio) * ratio : 1)) < 1e-14);
-    CornerVector gradient;
-    CornerMatrix hessian;
-    edgeMollifier(corners, scale, &gradient, &hessian);
-    if (ratio > 0.98) {
-      if (ratio > 1) QVERIFY(gradient.isZero(0) && hessian.isZero(0));
-      continue;
-    }
-    ++inside;
-    const auto slope = [&](const Corners& x) {
-      CornerVector result;
-      edgeMollifier(x, scale, &result, nullptr);
-      return result;
-    };
-    const CornerVector expected = gradientByDifferences(
-        [&](const Corners& x) { return edgeMollifier(x, scale, nullptr, nullptr); }, corners, 1e-6);
-    const CornerMatrix expectedHessian = hessianByDifferences(slope, corners, 1e-6);
-    QVERIFY((gradient - expected).norm() <= 1e-6 * std::max(1.0, expected.norm()));
-    QVERIFY((hessian - expectedHessian).norm() <= 1e-6 * expectedHessian.norm());
-  }
-  QVERIFY(inside > 50);
 }
 
 QTEST_GUILESS_MAIN(TestSimplexDistance)

@@ -88,6 +88,10 @@ void TestTriangleIntersection::coplanarSegments() {
     QVERIFY(!meets({1.2, 0, 0}, {0, 1.2, 0}));
     QVERIFY(!meets({1.1, 0, 0}, {2, 0, 0}));  // along a side
     QVERIFY(!meets({-1, 0.9, 0}, {-0.1, 2, 0}));
+    QVERIFY(!meets({0.55, 0.55, 0}, {1.55, 0.35, 0}));  // only the slanted side separates them
+    QVERIFY(!meets({1.5, -0.5, 0}, {2, -1, 0}));        // on the line of that side
+    QVERIFY(!meets({0.55, 0.55, 0}, {1.55, 0.35, 0}));  // only the slanted side separates them
+    QVERIFY(!meets({1.5, -0.5, 0}, {2, -1, 0}));        // on the line of that side
   }
 }
 
