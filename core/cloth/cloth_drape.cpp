@@ -45,17 +45,33 @@ ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions
       throw base::InputError("", "the tolerance and the time step of a drape must be numbers above 0");
   sheet_.fixed = heldNodes(*problem_, options_.time);
   potential_.setHeld(sheet_.fixed);
-  if (options_.limitMethod != "none" && hasLimits(sheet_)) {
-    renewLimiter_ = [makeLimiter, cones = sheetCones(sheet_, ProjectionNorm::mass), method = options_.limitMethod,
-                     projection = options_.projection] {
-      return makeLimiter ? makeLimiter(cones) : makeStrainLimiter(method, cones.constraints, projection);
-    };
-    limiter_ = renewLimiter_();
+  const bool limited = options_.limitMethod != "none" && hasLimits(sheet_);
+  contact_ = makeContactBarrier(*problem_);
+  if (contact_) {
+    checkContactOptions(options_.limitMethod, ProjectionNorm::mass);
+    LimitedSheet sheet = sheet_;
+    if (!limited)
+      for (SheetTriangle& triangle : sheet.triangles) triangle.limit = -1;
+    contactProjection_ =
+        std::make_unique<ContactProjection>(sheetCones(sheet, ProjectionNorm::mass).constraints, contact_);
+  } else if (limited) {
+    const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
+    limiter_ = makeLimiter ? makeLimiter(cones)
+                           : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
   }
   const Eigen::Index nodes = problem_->model->nodeCount();
   positions_ = problem_->model->restPositions.reshaped(3, nodes);
   placePins(*problem_, options_.time, positions_);
+  if (contact_) contact_->requireFree(withBodies(*problem_, positions_, options_.time));
   limitForces_.setZero(3, nodes);
+}
+
+solvers::ConeSolution ClothDrape::project(const Eigen::Matrix3Xd& candidate, base::ExecutionContext& context) {
+  if (!contactProjection_) return limiter_->project(candidate, positions_, context);
+  const Eigen::Matrix3Xd bodies = bodyPointsAt(*problem_, options_.time);
+  solvers::ConeProgramOptions options = options_.projection.cone;
+  options.relativeGap = std::max(options.relativeGap, contactRelativeGap);
+  return contactProjection_->project(candidate, positions_, {bodies, bodies}, 1 / timeStep_, options, context);
 }
 
 DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
@@ -87,17 +103,13 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
 
   const Eigen::Matrix3Xd unlimited = candidate.reshaped(3, nodes);
   Eigen::Matrix3Xd next = unlimited, forces = limitForces_;
-  if (done && limiter_) {
+  const bool projects = limiter_ || contactProjection_;
+  if (done && projects) {
     const base::Stopwatch watch;
     Eigen::Matrix3Xd moved = unlimited;
     for (Eigen::Index node = 0; node < nodes; ++node)
       if (!sheet_.fixed[static_cast<std::size_t>(node)]) moved.col(node) += h * h / masses[3 * node] * forces.col(node);
-    auto solution = std::make_shared<solvers::ConeSolution>(limiter_->project(moved, positions_, context));
-    if (solution->report.termination == TerminationType::failed) {
-      // What it remembers of the last projection may have led it astray.
-      limiter_ = renewLimiter_();
-      *solution = limiter_->project(moved, positions_, context);
-    }
+    auto solution = std::make_shared<solvers::ConeSolution>(project(moved, context));
     record.step.projections = 1;
     record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
     record.step.projectionSeconds = watch.seconds();
@@ -117,7 +129,7 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     const Vector motion = masses.cwiseProduct((next - positions_).reshaped()) / (h * h);
     const auto norm = [&](const Vector& force) { return freeNorm(force.reshaped(3, nodes), sheet_.fixed); };
     residual_ = norm(unbalanced) / std::max(norm(external), std::numeric_limits<double>::min());
-    if (++sinceChange_ >= (limiter_ ? stepsBetweenChanges : 1)) {
+    if (++sinceChange_ >= (projects ? stepsBetweenChanges : 1)) {
       sinceChange_ = 0;
       if (norm(splitting) > largestImbalance * norm(motion)) timeStep_ = std::max(shortestStep, h / stepChange);
       if (norm(motion) > largestImbalance * norm(splitting)) timeStep_ = h * stepChange;
@@ -125,7 +137,7 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     if (residual_ < progressFactor * bestResidual_) {
       bestResidual_ = residual_;
       sinceProgress_ = 0;
-    } else if (limiter_ && ++sinceProgress_ >= patience) {
+    } else if (projects && ++sinceProgress_ >= patience) {
       longestStep_ = h / boundChange;
       bestResidual_ = residual_;
       sinceProgress_ = 0;
@@ -136,6 +148,12 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
   }
   record.residual = residual_;
   record.step.energies = energiesAt(*problem_, positions_, Eigen::Matrix3Xd::Zero(3, nodes));
+  if (contact_) {
+    const Eigen::Matrix3Xd all = withBodies(*problem_, positions_, options_.time);
+    contact_->update(all);
+    record.step.energies.contact = contact_->value();
+    record.step.smallestGap = contact_->smallestGap(all);
+  }
   if (!sheet_.limits.empty()) record.step.violation = std::max(0.0, stretchRatios(sheet_, positions_).maxCoeff() - 1);
   return record;
 }

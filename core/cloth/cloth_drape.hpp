@@ -29,7 +29,8 @@ struct DrapeRecord {
 /// force of the *candidate* balances the limits, which is no equilibrium unless h is tiny; this ends at one for any h,
 /// and h only decides how fast: it is adapted so that the two parts of the unbalanced force,
 /// ∇E(x_{k+1}) - ∇E(x̃) and M (x_{k+1} - x_k) / h², stay alike, but not
-/// in every step, lest it never settle. The projection is by mass.
+/// in every step, lest it never settle. The projection is by mass. Contact with bodies and with itself is kept as in
+/// ClothSimulation, by the projection; its forces are then part of R.
 class ClothDrape {
  public:
   /// Starts from the rest positions. Throws base::InputError as ClothSimulation does.
@@ -40,18 +41,21 @@ class ClothDrape {
   bool converged() const { return residual_ <= options_.tolerance; }
 
   const Eigen::Matrix3Xd& positions() const { return positions_; }
-  /// R of every node, 0 where it is held (3 x nodes) [N].
+  /// R of every node, contact included, 0 where it is held (3 x nodes) [N].
   const Eigen::Matrix3Xd& limitForces() const { return limitForces_; }
   /// h [s]; the multipliers of the last projection are R's over h².
   double timeStep() const { return timeStep_; }
 
  private:
+  solvers::ConeSolution project(const Eigen::Matrix3Xd& candidate, base::ExecutionContext& context);
+
   std::shared_ptr<const ClothProblem> problem_;
   DrapeOptions options_;
   IncrementalPotential potential_;
   LimitedSheet sheet_;
-  std::function<std::unique_ptr<StrainLimiter>()> renewLimiter_;
   std::unique_ptr<StrainLimiter> limiter_;
+  std::shared_ptr<mechanics::ContactBarrier> contact_;    ///< null without bodies and self-contact
+  std::unique_ptr<ContactProjection> contactProjection_;  ///< stands for the limiter where there is contact
   Eigen::Matrix3Xd positions_, limitForces_;
   double timeStep_;
   double longestStep_ = 1e4;

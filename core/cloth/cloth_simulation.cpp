@@ -28,7 +28,9 @@ ClothSimulation::ClothSimulation(std::shared_ptr<const ClothProblem> problem, St
       options_(std::move(options)),
       makeLimiter_(std::move(makeLimiter)),
       potential_(problem_),
-      sheet_(problem_->sheet) {
+      sheet_(problem_->sheet),
+      contact_(makeContactBarrier(*problem_)) {
+  if (contact_) checkContactOptions(options_.limitMethod, options_.norm);
   requirePositiveOption(options_.timeStep, "the time step");
   requirePositiveOption(options_.newton.tolerance, "the tolerance of Newton's method");
   if (!makeLimiter_)
@@ -39,7 +41,6 @@ ClothSimulation::ClothSimulation(std::shared_ptr<const ClothProblem> problem, St
   const auto rest = problem_->model->restPositions.reshaped(3, problem_->model->nodeCount());
   state_.positions = rest;
   state_.velocities.setZero(3, rest.cols());
-  makeContact();
   updateHeld();
   state_.positions = withPins(state_.positions.reshaped(), 0).reshaped(3, rest.cols());
   requireFree();
@@ -67,58 +68,8 @@ void ClothSimulation::setPinTarget(int node, const Eigen::Vector3d& position) {
 
 void ClothSimulation::releasePinTarget(int node) { targets_.erase(node); }
 
-Eigen::Matrix3Xd ClothSimulation::bodyPointsAt(const ClothProblem& problem, double time) {
-  Eigen::Index count = 0;
-  for (const Body& body : problem.bodies) count += body.points.cols();
-  Eigen::Matrix3Xd points(3, count);
-  count = 0;
-  for (const Body& body : problem.bodies) {
-    points.middleCols(count, body.points.cols()) = placementAt(body.path, time).apply(body.points, body.centre);
-    count += body.points.cols();
-  }
-  return points;
-}
-
-void ClothSimulation::makeContact() {
-  if (problem_->bodies.empty() && !problem_->selfContact) return;
-  const int nodes = problem_->model->nodeCount();
-  mechanics::ContactGeometry geometry;
-  geometry.selfContact = problem_->selfContact;
-  for (const SheetTriangle& triangle : sheet_.triangles) geometry.triangles.push_back(triangle.nodes);
-  geometry.radii.assign(static_cast<std::size_t>(nodes), 0);
-  geometry.bodies.assign(static_cast<std::size_t>(nodes), 0);
-  int first = nodes, number = 0;
-  for (const Body& body : problem_->bodies) {
-    const int count = static_cast<int>(body.points.cols());
-    for (const auto& [a, b, c] : body.triangles) geometry.triangles.push_back({first + a, first + b, first + c});
-    for (const auto& [a, b] : body.edges) geometry.edges.push_back({first + a, first + b});
-    if (body.triangles.empty() && body.edges.empty())
-      for (int i = 0; i < count; ++i) geometry.points.push_back(first + i);
-    geometry.radii.insert(geometry.radii.end(), static_cast<std::size_t>(count), body.radius);
-    geometry.bodies.insert(geometry.bodies.end(), static_cast<std::size_t>(count), ++number);
-    first += count;
-  }
-  const double range = problem_->contactDistance;
-  requirePositiveOption(range, "the contact distance");
-  // Half-way into the range, where the barrier falls by 1.193 range a metre, a pair pushes ten times as hard as a node
-  // weighs.
-  const double gravity = 9.81;
-  const double stiffness = 10 * sheet_.masses.mean() * gravity / (1.193 * range);
-  Eigen::Matrix3Xd rest(3, first);
-  rest << problem_->model->restPositions.reshaped(3, nodes), bodyPointsAt(*problem_, 0);
-  contact_ = std::make_shared<mechanics::ContactBarrier>(
-      std::move(geometry), rest, mechanics::ContactOptions{.range = range, .stiffness = stiffness, .separation = 0});
-}
-
 void ClothSimulation::requireFree() const {
-  if (contact_) contact_->requireFree(withBodies(state_.positions, state_.time));
-}
-
-Eigen::Matrix3Xd ClothSimulation::withBodies(const Eigen::Matrix3Xd& positions, double time) const {
-  const Eigen::Matrix3Xd bodies = bodyPointsAt(*problem_, time);
-  Eigen::Matrix3Xd all(3, positions.cols() + bodies.cols());
-  all << positions, bodies;
-  return all;
+  if (contact_) contact_->requireFree(withBodies(*problem_, state_.positions, state_.time));
 }
 
 void ClothSimulation::updateHeld() {
@@ -179,7 +130,7 @@ StepRecord ClothSimulation::step(base::ExecutionContext& context) {
   record.time = state_.time;
   record.energies = energies();
   if (contact_) {
-    const Eigen::Matrix3Xd all = withBodies(state_.positions, state_.time);
+    const Eigen::Matrix3Xd all = withBodies(*problem_, state_.positions, state_.time);
     contact_->update(all);
     record.energies.contact = contact_->value();
     record.smallestGap = contact_->smallestGap(all);

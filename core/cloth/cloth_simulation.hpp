@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "core/cloth/cloth_contact.hpp"
 #include "core/cloth/contact_projection.hpp"
 #include "core/cloth/incremental_potential.hpp"
 
@@ -113,13 +114,10 @@ class ClothSimulation {
   Energies energies() const { return energiesAt(*problem_, state_.positions, state_.velocities); }
   /// Of the bodies' points at the state's time, one body after the other [m].
   Eigen::Matrix3Xd bodyPoints() const { return bodyPointsAt(*problem_, state_.time); }
-  static Eigen::Matrix3Xd bodyPointsAt(const ClothProblem& problem, double time);
 
  private:
   struct Attempt;
-  void makeContact();
   void requireFree() const;
-  Eigen::Matrix3Xd withBodies(const Eigen::Matrix3Xd& positions, double time) const;
   void updateHeld();
   /// All positions with held nodes where they are a fraction of the step after its start.
   Vector withPins(Vector positions, double fraction) const;

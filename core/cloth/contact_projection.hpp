@@ -12,6 +12,9 @@ struct ContactMotion {
   Eigen::Matrix3Xd bodiesFrom, bodiesTo;  ///< 3 x points of the bodies [m]
 };
 
+/// The relative gap that steps ask for: the optimum is a local one, and a barrier comes less near than a cone program.
+inline constexpr double contactRelativeGap = 1e-5;
+
 /// Projects positions onto stretch limits without letting the sheet through a body or itself: the minimum of
 ///   ½ ‖x - x̂‖²_M + (contact energy) / rate²   subject to the limits,
 /// x̂ the candidate of a step with this rate (see StepTerms). Contact makes the problem nonconvex, so this is a local
@@ -29,7 +32,8 @@ class ContactProjection {
   /// `start`: positions inside the limits and free of contact with the bodies where `motion` has them at first; held
   /// nodes and bodies move from there to where the candidate and `motion` have them, together with the sheet. `rate`
   /// [1/s]. If they cannot get there, the report says "failed" and what is returned is how far they got; `reached`
-  /// (if not null) takes where the bodies are then. Throws base::InputError if the start is not as said.
+  /// (if not null) takes where the bodies are then. Throws
+  /// base::InputError if the start is not as said.
   solvers::ConeSolution project(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
                                 const ContactMotion& motion, double rate, const solvers::ConeProgramOptions& options,
                                 base::ExecutionContext& context, Eigen::Matrix3Xd* reached = nullptr);

@@ -6,9 +6,6 @@ using base::TerminationType;
 
 namespace {
 
-/// Of projections with contact, whose optimum is a local one.
-constexpr double contactGap = 1e-5;
-
 Eigen::Matrix3Xd asPoints(const Vector& coordinates) { return coordinates.reshaped(3, coordinates.size() / 3); }
 
 }  // namespace
@@ -62,7 +59,7 @@ solvers::ConeSolution ClothSimulation::Attempt::projectWithContact(const Eigen::
                                                                    const Eigen::Matrix3Xd& start, double fraction) {
   const ClothProblem& problem = *simulation.problem_;
   solvers::ConeProgramOptions options = simulation.options_.projection.cone;
-  options.relativeGap = std::max(options.relativeGap, contactGap);
+  options.relativeGap = std::max(options.relativeGap, contactRelativeGap);
   const double begin = simulation.state_.time, step = simulation.options_.timeStep;
   const ContactMotion motion{
       bodyPointsAt(problem, begin + projectedFraction * step), bodyPointsAt(problem, begin + fraction * step)};

@@ -86,6 +86,8 @@ std::vector<std::string> ClothResult::warnings() const {
   if (unconverged > 0)
     sentences.push_back(std::to_string(unconverged) + " of " + std::to_string(steps.size()) +
                         " steps were not solved as exactly as asked.");
+  if (problem && studyType() == "projection" && (problem->selfContact || !problem->bodies.empty()))
+    sentences.emplace_back("A projection looks at limits alone: here bodies and self-contact are left out.");
   double overshoot = 0;
   if (problem)
     for (const cloth::LimitConstraints& constraints : problem->sheet.constraints)

@@ -161,7 +161,7 @@ std::shared_ptr<ClothResult> ClothResult::read(const Scene& scene, const std::fi
       frame.time = times[i];
       const double bodiesAt =
           result->studyType() == "cloth_motion" ? times[i] : result->provenance.options.value("time", 0.0);
-      frame.bodyPoints = cloth::ClothSimulation::bodyPointsAt(*result->problem, bodiesAt);
+      frame.bodyPoints = cloth::bodyPointsAt(*result->problem, bodiesAt);
       result->frames.push_back(std::make_shared<const ClothFrame>(std::move(frame)));
     });
   return result;

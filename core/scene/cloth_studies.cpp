@@ -60,7 +60,7 @@ class GrowingResult {
     auto frame = std::make_shared<ClothFrame>();
     frame->time = time;
     frame->positions = positions;
-    frame->bodyPoints = cloth::ClothSimulation::bodyPointsAt(*result_->problem, bodiesAt);
+    frame->bodyPoints = cloth::bodyPointsAt(*result_->problem, bodiesAt);
     frame->stretchRatios = cloth::stretchRatios(sheet, positions);
     frame->limitForces.setZero(static_cast<Eigen::Index>(sheet.triangles.size()));
     Eigen::Index element = 0;

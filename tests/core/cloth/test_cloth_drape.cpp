@@ -1,7 +1,10 @@
 #include <Eigen/LU>
 #include <QtTest>
 
+#include "core/base/error.hpp"
 #include "core/cloth/cloth_drape.hpp"
+#include "core/geometry/triangle_intersection.hpp"
+#include "core/solvers/cone_certificate.hpp"
 #include "tests/core/cloth/cloth_examples.hpp"
 
 using namespace pliant;
@@ -76,6 +79,67 @@ class TestClothDrape : public QObject {
     QVERIFY2(left(free).norm() < 1.5e-3 * weight(free).norm(),
              qPrintable(QString::number(left(free).norm() / weight(free).norm())));
     QVERIFY(mechanics::Vector(forces.reshaped())(free).norm() > 0.5 * weight(free).norm());
+  }
+
+  /// A sheet held by two corners comes to rest on a ball: nowhere inside it, not through itself, within its limits, and
+  /// with all forces, those of contact among them, in balance.
+  void itRestsOnABall() {
+    auto problem = test::withLimit(test::hungByCorners(test::withGravity(test::sheetProblem(6), {0, 0, -9.81})), 1.02);
+    const double radius = 0.15;
+    cloth::Body ball;
+    ball.name = "ball";
+    ball.points = Eigen::Vector3d(0.12, 0.01, -0.2);
+    ball.radius = radius;
+    problem.bodies = {ball};
+    problem.contactDistance = 5e-3;
+    problem.selfContact = true;
+    cloth::DrapeOptions options;
+    options.tolerance = 1e-2;
+    cloth::ClothDrape drape(std::make_shared<const cloth::ClothProblem>(problem), options);
+    base::ExecutionContext context;
+    std::vector<std::array<int, 3>> triangles;
+    for (const cloth::SheetTriangle& triangle : problem.sheet.triangles) triangles.push_back(triangle.nodes);
+    int steps = 0;
+    cloth::DrapeRecord record;
+    while (!drape.converged() && steps < 300) {
+      record = drape.step(context);
+      ++steps;
+      for (Eigen::Index node = 0; node < drape.positions().cols(); ++node)
+        QVERIFY((drape.positions().col(node) - ball.points.col(0)).norm() > radius);
+      if (steps % 20 == 0) QVERIFY(geometry::findIntersections(drape.positions(), triangles).empty());
+      QVERIFY(cloth::stretchRatios(problem.sheet, drape.positions()).maxCoeff() <= 1);
+    }
+    QVERIFY2(drape.converged(), qPrintable(QString("%1 after %2").arg(record.residual).arg(steps)));
+    QVERIFY(record.step.smallestGap < problem.contactDistance);
+    // R is what the multipliers and the contact barrier say, each computed for itself.
+    const auto contact = cloth::makeContactBarrier(problem);
+    contact->update(cloth::withBodies(problem, drape.positions(), 0));
+    Eigen::Matrix3Xd forces = solvers::limitForces(
+        cloth::sheetCones(problem.sheet, cloth::ProjectionNorm::mass).constraints, *record.step.projection);
+    forces /= record.timeStep * record.timeStep;
+    Eigen::Matrix3Xd push = Eigen::Matrix3Xd::Zero(3, forces.cols());
+    contact->addGradient(push);
+    forces += push;
+    const auto& locked = problem.model->lockedCoordinates;
+    for (Eigen::Index node = 0; node < forces.cols(); ++node)
+      if (locked[static_cast<std::size_t>(3 * node)]) forces.col(node).setZero();
+    const double weight = 9.81 * problem.sheet.masses.sum();
+    QVERIFY2((forces - drape.limitForces()).norm() < 1e-3 * weight,
+             qPrintable(QString::number((forces - drape.limitForces()).norm() / weight)));
+    QVERIFY(push.norm() > 0.05 * weight);  // the ball bears a part
+  }
+
+  void contactRefusesWhatItCannotKeep() {
+    auto problem = test::withLimit(test::withGravity(test::sheetProblem(2), {0, 0, -9.81}), 1.02);
+    problem.selfContact = true;
+    cloth::DrapeOptions options;
+    options.limitMethod = "gauss_seidel";
+    QVERIFY_THROWS_EXCEPTION(
+        base::InputError, cloth::ClothDrape(std::make_shared<const cloth::ClothProblem>(problem), options));
+    cloth::SteppingOptions stepping;
+    stepping.norm = cloth::ProjectionNorm::identity;
+    QVERIFY_THROWS_EXCEPTION(
+        base::InputError, cloth::ClothSimulation(std::make_shared<const cloth::ClothProblem>(problem), stepping));
   }
 };
 

@@ -100,19 +100,18 @@ class TestContactProjection : public QObject {
     std::vector<std::array<int, 3>> triangles;
     for (const auto& element : sheet.constraints.elements) triangles.push_back(element.nodes);
     double nearest = 1;
-    for (int step = 0; step < 26; ++step) {
+    for (int step = 0; step < 40; ++step) {
       Eigen::Matrix3Xd candidate = x + h * velocity;
       candidate.row(2).array() -= 9.81 * h * h;
-      const Eigen::Vector3d moved = ball + (step > 14 ? Eigen::Vector3d(0.004, 0, 0.008) : Eigen::Vector3d::Zero());
+      const Eigen::Vector3d moved = ball + (step > 20 ? Eigen::Vector3d(0.004, 0, 0.008) : Eigen::Vector3d::Zero());
       const ConeSolution solution = projection.project(candidate, x, {ball, moved}, 1 / h, options, context);
       // Later, where it crumples, Newton's method may end before it is as near as asked; what follows holds all the
       // same.
-      if (step < 3) QVERIFY2(solution.report.converged(), solution.report.message.c_str());
+      QVERIFY2(solution.report.converged(), solution.report.message.c_str());
       QCOMPARE(solution.violation, 0.0);
       // Where it falls freely the candidate keeps the limits, and there is no objective to compare with.
-      if (solution.report.converged())
-        QVERIFY2(std::abs(solution.gap()) <= 1e-4 * solution.objective + 1e-14,
-                 qPrintable(QString("%1 of %2 in step %3").arg(solution.gap()).arg(solution.objective).arg(step)));
+      QVERIFY2(std::abs(solution.gap()) <= 1e-4 * solution.objective + 1e-14,
+               qPrintable(QString("%1 of %2 in step %3").arg(solution.gap()).arg(solution.objective).arg(step)));
       ball = moved;
       velocity = (solution.positions - x) / h;
       x = solution.positions;
