@@ -453,11 +453,6 @@ ConeProgram::ConeProgram(ConeConstraints constraints)
     : implementation_(std::make_unique<Implementation>(std::move(constraints))) {}
 ConeProgram::~ConeProgram() = default;
 ConeProgram::ConeProgram(ConeProgram&&) noexcept = default;
-const ConeConstraints& ConeProgram::constraints() const { return implementation_->constraints; }
-void ConeProgram::reset() {
-  implementation_->hasMultipliers = false;
-  implementation_->lastObjective = 0;
-}
 
 ConeSolution ConeProgram::solve(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
                                 const ConeProgramOptions& options, base::ExecutionContext& context) {

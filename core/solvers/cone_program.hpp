@@ -61,7 +61,7 @@ struct ConeSolution {
   double complementarity = 0;  ///< Σ ⟨Λ, S⟩ / P
   base::SolverReport report;   ///< residual: relative gap; correction: violation
   /// If infeasible: the elements and fixed nodes that contradict each other, those with the largest share of the proof
-  /// first.
+  /// first. The positions then keep bounds that are looser by the factor that the message names.
   std::vector<int> conflictingElements;
   std::vector<int> conflictingNodes;
 
@@ -80,15 +80,10 @@ class ConeProgram {
   ~ConeProgram();
   ConeProgram(ConeProgram&&) noexcept;
 
-  const ConeConstraints& constraints() const;
-
   /// `candidate`: x̂, 3 x nodes, finite; its fixed nodes are where they are to be [m]. `start`: where to look first, as
   /// a rule the projection before; it need not keep the limits. Throws base::InputError if a number is not finite.
   ConeSolution solve(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
                      const ConeProgramOptions& options, base::ExecutionContext& context);
-
-  /// Forgets the multipliers of the last solution.
-  void reset();
 
  private:
   struct Implementation;

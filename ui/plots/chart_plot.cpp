@@ -175,29 +175,8 @@ void ChartPlot::addSeries(const MotionChart& chart, const ChartSeries& series, s
 }
 
 void ChartPlot::applyStyle() {
-  const PlotStyle style = plotStyle(palette());
-  plot_->setBackground(style.background);
-  QFont small = font();
-  small.setPointSizeF(font().pointSizeF() * 0.9);
-  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
-    axis->setBasePen(QPen(style.mutedText, 1));
-    axis->setTickPen(QPen(style.mutedText, 1));
-    axis->setSubTicks(false);
-    axis->setTickLabelColor(style.mutedText);
-    axis->setLabelColor(style.text);
-    axis->setTickLabelFont(small);
-    axis->setLabelFont(font());
-    axis->setLabelPadding(6);
-    axis->grid()->setPen(QPen(style.grid, 1));
-    axis->grid()->setZeroLinePen(QPen(style.mutedText, 1));
-  }
-  plot_->legend->setFont(small);
-  plot_->legend->setTextColor(style.text);
-  QColor box = style.background;
-  box.setAlpha(224);
-  plot_->legend->setBrush(box);
-  plot_->legend->setBorderPen(Qt::NoPen);
-  if (instant_) instant_->setPen(QPen(style.shown, 1.2));
+  styleChart(*plot_, *this);
+  if (instant_) instant_->setPen(QPen(plotStyle(palette()).shown, 1.2));
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/base/units.hpp"
+#include "ui/plots/custom_plot.hpp"
 #include "ui/render/theme.hpp"
 
 namespace pliant::plots {
@@ -33,6 +34,31 @@ PlotStyle plotStyle(const QPalette& palette) {
   style.shown = toColor(shared.trajectory);
   style.warning = dark ? QColor(240, 180, 80) : QColor(150, 84, 0);
   return style;
+}
+
+void styleChart(QCustomPlot& plot, const QWidget& owner) {
+  const PlotStyle style = plotStyle(owner.palette());
+  plot.setBackground(style.background);
+  QFont small = owner.font();
+  small.setPointSizeF(owner.font().pointSizeF() * 0.9);
+  for (QCPAxis* axis : {plot.xAxis, plot.yAxis}) {
+    axis->setBasePen(QPen(style.mutedText, 1));
+    axis->setTickPen(QPen(style.mutedText, 1));
+    axis->setSubTicks(false);
+    axis->setTickLabelColor(style.mutedText);
+    axis->setLabelColor(style.text);
+    axis->setTickLabelFont(small);
+    axis->setLabelFont(owner.font());
+    axis->setLabelPadding(6);
+    axis->grid()->setPen(QPen(style.grid, 1));
+    axis->grid()->setZeroLinePen(QPen(style.mutedText, 1));
+  }
+  plot.legend->setFont(small);
+  plot.legend->setTextColor(style.text);
+  QColor box = style.background;
+  box.setAlpha(224);
+  plot.legend->setBrush(box);
+  plot.legend->setBorderPen(Qt::NoPen);
 }
 
 QString formatLength(double metres) {

@@ -4,6 +4,9 @@
 #include <QPalette>
 #include <QString>
 
+class QCustomPlot;
+class QWidget;
+
 namespace pliant::plots {
 
 /// The colours of a plot in a light or dark window. Categories are Okabe and Ito's; predicted and shown motions have
@@ -23,6 +26,9 @@ struct PlotStyle {
 
 bool isDark(const QPalette& palette);
 PlotStyle plotStyle(const QPalette& palette);
+
+/// Colours and fonts of a chart's background, axes and legend.
+void styleChart(QCustomPlot& plot, const QWidget& owner);
 
 /// "43.10 mm": four significant digits and a fitting prefix.
 QString formatLength(double metres);

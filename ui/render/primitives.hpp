@@ -33,7 +33,7 @@ class SurfacePrimitive {
   /// One number a triangle, coloured by `table` (null: the actor's colour).
   void setField(const Eigen::VectorXd* field, vtkLookupTable* table);
 
- private:
+ protected:
   vtkNew<vtkPolyData> data_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;

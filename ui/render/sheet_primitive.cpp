@@ -16,25 +16,12 @@ SheetPrimitive::SheetPrimitive() {
   normals_->SetName("normals");
   data_->SetPoints(points_);
   data_->GetPointData()->SetNormals(normals_);
-  mapper_->SetInputData(data_);
-  mapper_->ScalarVisibilityOff();
-  mapper_->SetScalarModeToUseCellData();
-  mapper_->UseLookupTableScalarRangeOn();
-  mapper_->StaticOn();
-  actor_->SetMapper(mapper_);
-  vtkProperty* property = actor_->GetProperty();
-  property->SetInterpolationToPhong();
-  property->SetAmbient(0.55);
-  property->SetDiffuse(0.5);
+  actor_->GetProperty()->SetInterpolationToPhong();
 }
 
 void SheetPrimitive::setTopology(const std::vector<std::array<int, 3>>& triangles) {
   triangles_ = triangles;
-  vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(triangles.size()), 3 * static_cast<vtkIdType>(triangles.size()));
-  for (const auto& [a, b, c] : triangles) cells->InsertNextCell({a, b, c});
-  data_->SetPolys(cells);
-  data_->GetCellData()->SetScalars(nullptr);
+  SurfacePrimitive::setTopology(triangles);
 }
 
 void SheetPrimitive::setPoints(const Points& points, double offset) {
@@ -54,16 +41,6 @@ void SheetPrimitive::setPoints(const Points& points, double offset) {
   points_->Modified();
   normals_->Modified();
   data_->Modified();
-}
-
-void SheetPrimitive::setField(const Eigen::VectorXd* field, vtkLookupTable* table) {
-  mapper_->SetScalarVisibility(field != nullptr);
-  if (!field) return;
-  vtkNew<vtkDoubleArray> values;
-  values->SetNumberOfValues(field->size());
-  std::copy(field->begin(), field->end(), values->GetPointer(0));
-  data_->GetCellData()->SetScalars(values);
-  mapper_->SetLookupTable(table);
 }
 
 }  // namespace pliant::render

@@ -157,8 +157,11 @@ class TestClothScenes : public QObject {
     const auto result =
         run(sceneIn(folder, edited("\"at\": {\"nearest\": [0, 0.2, 0]}", "\"at\": {\"nearest\": [0.4, -0.2, 0]}")),
             "projection");
-    QVERIFY(result->termination != base::TerminationType::converged);
-    QVERIFY(QString::fromStdString(result->message).contains("fixed nodes"));
+    QVERIFY2(result->termination == base::TerminationType::infeasible, result->message.c_str());
+    QVERIFY(QString::fromStdString(result->message).contains("farther apart than the sheet may stretch"));
+    const Json summary = result->summary();
+    QVERIFY(!summary["projection"]["conflicting_triangles"].empty());
+    QCOMPARE(summary["projection"]["conflicting_pins"].size(), std::size_t(2));
   }
 
   void badInputIsRefused_data() {
