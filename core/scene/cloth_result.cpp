@@ -74,8 +74,9 @@ Json probePlaces(const mechanics::Model& model, const ClothFrame& frame) {
 std::string ClothResult::studyType() const { return provenance.options.value("type", ""); }
 
 std::shared_ptr<const ClothFrame> ClothResult::frameAt(double time) const {
+  const double within = std::clamp(time, frames.front()->time, frames.back()->time);
   return *std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
-    return std::abs(a->time - time) < std::abs(b->time - time);
+    return std::abs(a->time - within) < std::abs(b->time - within);
   });
 }
 

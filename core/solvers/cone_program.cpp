@@ -379,16 +379,19 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
 }
 
 /// Limits that are all the looser by one factor are kept by something if the factor is large enough. Close to the
-/// smallest such factor the multipliers grow until they prove, if it is above 1, that nothing keeps the limits.
+/// smallest such factor the multipliers grow until they prove, if it is above 1, that nothing keeps the limits. Whether
+/// anything does is no matter of the candidate, so the start is projected in its place: a candidate that is stretched
+/// evenly would keep looser limits without any multipliers.
 ConeSolution ConeProgram::Implementation::explain(const Positions& candidate, const Positions& start,
                                                   const ConeProgramOptions& options, base::ExecutionContext& context,
                                                   ConeSolution failed) {
   const base::Stopwatch stopwatch;
-  const double farthest = largestObjective(candidate);
-  Positions feasible = start, displacement(3, constraints.nodeCount);
+  Positions held = start, feasible, displacement(3, constraints.nodeCount);
   for (int node = 0; node < constraints.nodeCount; ++node)
-    if (constraints.fixed[node]) feasible.col(node) = candidate.col(node);
-  const double size = (candidate.rowwise().maxCoeff() - candidate.rowwise().minCoeff()).norm();
+    if (constraints.fixed[node]) held.col(node) = candidate.col(node);
+  feasible = held;
+  const double farthest = largestObjective(held);
+  const double size = (held.rowwise().maxCoeff() - held.rowwise().minCoeff()).norm();
   followFixedNodes(start, constraints.masses.sum() * size * size, feasible, displacement);
 
   ConeProgramOptions relaxedOptions = options;
@@ -404,7 +407,7 @@ ConeSolution ConeProgram::Implementation::explain(const Positions& candidate, co
       for (Eigen::Matrix2d& ellipse : bounds.ellipses) ellipse *= factor * factor;
       for (Eigen::Vector2d& direction : bounds.directions) direction /= factor;
     }
-    ConeSolution solution = Implementation(std::move(relaxed)).solve(candidate, feasible, relaxedOptions, context);
+    ConeSolution solution = Implementation(std::move(relaxed)).solve(held, feasible, relaxedOptions, context);
     if (!solution.report.converged()) {
       impossible = factor;
       if (impossible >= possible * (1 - 1e-12)) break;
@@ -414,7 +417,7 @@ ConeSolution ConeProgram::Implementation::explain(const Positions& candidate, co
     feasible = solution.positions;
     solution.ellipseMultipliers /= factor * factor;
     solution.directionMultipliers /= factor * factor;
-    if (provenDistance(constraints, candidate, solution) > farthest) {
+    if (provenDistance(constraints, held, solution) > farthest) {
       certify(constraints, candidate, solution);
       solution.report = failed.report;
       solution.report.termination = base::TerminationType::infeasible;

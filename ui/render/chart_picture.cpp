@@ -79,14 +79,18 @@ void makeLogarithmic(vtkAxis* axis, const scene::ResultChart& chart, std::vector
   axis->LogScaleOn();
 }
 
-/// From zero to a little above the largest value, so that a peak's marker is not cut.
-void leaveRoomAbove(vtkAxis* axis, const scene::ResultChart& chart) {
-  double high = 0;
+/// From zero, or the lowest value if that is below, to a little beyond the highest, so that a peak's marker is not cut.
+void leaveRoom(vtkAxis* axis, const scene::ResultChart& chart) {
+  double low = 0, high = 0;
   for (const scene::ResultSeries& series : chart.series)
-    for (const double value : series.y) high = std::max(high, value);
-  if (!(high > 0)) return;
+    for (const double value : series.y) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  const double room = 0.06 * (high - low);
+  if (!(room > 0)) return;
   axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetRange(0, 1.06 * high);
+  axis->SetRange(low < 0 ? low - room : 0, high + room);
 }
 
 /// Ticks at the values themselves where they are few: 64, 128, 256 rather than round numbers.
@@ -136,7 +140,7 @@ void drawCharts(const std::vector<scene::ResultChart>& charts, int width, int he
       if (data.logarithmicY)
         makeLogarithmic(chart->GetAxis(vtkAxis::LEFT), data, &scene::ResultSeries::y);
       else
-        leaveRoomAbove(chart->GetAxis(vtkAxis::LEFT), data);
+        leaveRoom(chart->GetAxis(vtkAxis::LEFT), data);
       for (const scene::ResultSeries& series : data.series) addSeries(chart, series);
       chart->SetShowLegend(true);
       setTextStyle(chart->GetLegend()->GetLabelProperties(), 12, colors.text);

@@ -81,6 +81,9 @@ class TestClothScenes : public QObject {
     QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
     QCOMPARE(result->steps.size(), std::size_t(10));
     QCOMPARE(result->frames.size(), std::size_t(5));  // 0, 3, 6, 9 and the last
+    QVERIFY(result->frameAt(std::numeric_limits<double>::max()) == result->frames.back());
+    QVERIFY(result->frameAt(-1) == result->frames.front());
+    QVERIFY(result->frameAt(result->frames[1]->time * 1.1) == result->frames[1]);
     const scene::ClothFrame& last = *result->frames.back();
     QVERIFY(last.stretchRatios.maxCoeff() < 1 + 1e-6);
     QVERIFY(std::abs(last.positions(2, result->problem->pins[0].nodes[0]) - 0.02) < 1e-12);

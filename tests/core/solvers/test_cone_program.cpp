@@ -221,6 +221,11 @@ class TestConeProgram : public QObject {
       const ConeElement& worst = sheet.constraints.elements[solution.conflictingElements.front()];
       QVERIFY(std::count_if(worst.nodes.begin(), worst.nodes.end(), [&](int node) { return node <= cells; }) >= 2);
     }
+    // A candidate that is stretched evenly with them is no excuse.
+    Eigen::Matrix3Xd evenly = sheet.rest;
+    evenly.row(0) *= 2;
+    const ConeSolution stretched = project(sheet, evenly);
+    QVERIFY2(stretched.report.termination == TerminationType::infeasible, stretched.report.message.c_str());
     Eigen::Matrix3Xd candidate = sheet.rest;
     candidate(0, cells) = 1.049;  // nearly taut, but possible
     QVERIFY(project(sheet, candidate).report.converged());
