@@ -143,6 +143,19 @@ std::optional<Eigen::Vector2d> CameraControl::pixelOf(const Eigen::Vector3d& poi
   return Eigen::Vector2d(0.5 * (1.0 + clip.x() / clip.w()) * size[0], 0.5 * (1.0 + clip.y() / clip.w()) * size[1]);
 }
 
+std::optional<Eigen::Vector3d> CameraControl::pointBeside(const Eigen::Vector3d& point, double x, double y) const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  const int* size = renderer_->GetSize();
+  const Eigen::Vector3d forward = vectorOf(camera->GetDirectionOfProjection()).normalized();
+  const Eigen::Vector3d eye = vectorOf(camera->GetPosition());
+  const double depth = (point - eye).dot(forward);
+  if (size[1] <= 0 || depth <= 0) return std::nullopt;
+  const double pixel = 2.0 * depth * std::tan(0.5 * viewAngle * std::numbers::pi / 180.0) / size[1];
+  const Eigen::Vector3d up = vectorOf(camera->GetViewUp()).normalized();
+  const Eigen::Vector3d right = forward.cross(up).normalized();
+  return eye + depth * forward + pixel * ((x - 0.5 * size[0]) * right + (0.5 * size[1] - y) * up);
+}
+
 std::optional<int> CameraControl::nearestPoint(const Points& points, double x, double y, double radius) const {
   const Eigen::Vector2d place(x, renderer_->GetSize()[1] - y);
   std::optional<int> nearest;
