@@ -11,7 +11,8 @@ namespace {
 
 constexpr double extentsPerSecond = 4;
 constexpr int mostRefusals = 4;
-constexpr double arrived = 1e-9;  // of the reach of one step
+constexpr double givingWay = -0.125;  // of the reach of one step
+constexpr double arrived = 1e-9;      // of the reach of one step
 
 }  // namespace
 
@@ -58,7 +59,8 @@ void Dragging::aim(double fraction) {
     const Eigen::Vector3d place = simulation_.state().positions.col(node);
     const Eigen::Vector3d way = hand - place;
     const double length = way.norm();
-    simulation_.setPinTarget(node, length <= fraction * reach_ ? hand : place + fraction * reach_ / length * way);
+    const bool arrives = length <= std::max(fraction, arrived) * reach_;
+    simulation_.setPinTarget(node, arrives ? hand : place + fraction * reach_ / length * way);
   }
 }
 
@@ -79,7 +81,15 @@ StepRecord Dragging::step(base::ExecutionContext& context) {
     pause_ = 1 << refusals_;
   }
   aim(0);
-  return simulation_.step(context);
+  StepRecord record = simulation_.step(context);
+  if (record.done() || !isPulled() || record.termination == base::TerminationType::cancelled) return record;
+  // Taut between hands and pins there is no room to move, and what the sheet was about to do may be far from possible.
+  const ClothState before = simulation_.state();
+  simulation_.setState(before.time, before.positions, Eigen::Matrix3Xd::Zero(3, before.positions.cols()));
+  aim(givingWay);
+  StepRecord last = simulation_.step(context);
+  if (!last.done()) simulation_.setState(before.time, before.positions, before.velocities);
+  return last;
 }
 
 }  // namespace pliant::cloth

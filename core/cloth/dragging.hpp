@@ -9,7 +9,8 @@ namespace pliant::cloth {
 /// Nodes of a simulation that a hand pulls. A pulled node goes towards the hand, by at most four of the sheet's extents
 /// in a second of simulated time. Where limits, pins and hands contradict each other no step is possible: the pulled
 /// nodes then stay where they are while the rest moves on, and try again in ever longer intervals and shorter paths, so
-/// that a hand that pulls too far costs little.
+/// that a hand that pulls too far costs little. Where nothing can move on either, pulled nodes give way a little and
+/// the sheet starts from rest.
 class Dragging {
  public:
   /// The simulation must outlive this.

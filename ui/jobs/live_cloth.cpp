@@ -21,6 +21,7 @@ LiveCloth::LiveCloth(const scene::Scene& scene, std::shared_ptr<const mechanics:
 
 void LiveCloth::build(const scene::Scene& scene, std::shared_ptr<const mechanics::Model> model) {
   scene::ClothMotionSetup setup = scene::clothMotionSetup(scene, model, study_);
+  setup.stepping.projection.cone.explainFailure = false;  // takes many times as long as a step
   auto simulation = std::make_unique<cloth::ClothSimulation>(setup.problem, setup.stepping);
   dragging_ = std::make_unique<cloth::Dragging>(*simulation);
   simulation_ = std::move(simulation);

@@ -85,9 +85,16 @@ void LiveBar::fillStudies() {
   const QSignalBlocker block(studies_);
   const QString before = studies_->currentText();
   studies_->clear();
-  for (const document::StudyState& study : document_.studies())
-    if (study.type == "cloth_motion") studies_->addItem(QString::fromStdString(study.name));
-  if (studies_->count() > 0) studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
+  int first = -1;  // that keeps limits, or else a hand would tear the cloth
+  for (std::size_t i = 0; i < document_.studies().size(); ++i) {
+    const document::StudyState& study = document_.studies()[i];
+    if (study.type != "cloth_motion") continue;
+    const scene::Json scheme = document_.valueAt("/studies/" + std::to_string(i) + "/scheme");
+    if (first < 0 && scheme != "implicit_euler" && scheme != "bdf2") first = studies_->count();
+    studies_->addItem(QString::fromStdString(study.name));
+  }
+  const int same = studies_->findText(before);
+  studies_->setCurrentIndex(same >= 0 ? same : std::max(first, studies_->count() > 0 ? 0 : -1));
   studies_->setVisible(studies_->count() > 1);
   setVisible(hasCloth(document_));
 }
@@ -118,7 +125,7 @@ void LiveBar::refresh() {
   else if (state.speed > 0)
     parts << (state.speed > realTime ? tr("real time") : tr("%1 × real time").arg(state.speed, 0, 'f', 2));
   if (session_.isRecording()) parts << tr("recorded %1 s").arg(state.recordedSeconds, 0, 'f', 2);
-  if (!state.obstacle.isEmpty()) parts << tr("limits hold the hand back");
+  if (!state.obstacle.isEmpty()) parts << tr("the hand is held back");
   const bool warns = !state.trouble.isEmpty() || !state.obstacle.isEmpty();
   text_->setText(parts.join(QStringLiteral("   ·   ")), warns ? style.warning : style.text);
 }

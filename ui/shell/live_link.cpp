@@ -54,17 +54,18 @@ void LiveLink::showState() {
   viewport_.setCaption(caption());
   if (!state.obstacle.isEmpty() && pulled_ && !toldOfObstacle_) {
     toldOfObstacle_ = true;
-    document_.raise(base::Severity::information, tr("The hand pulls further than limits and pins allow, so node %1 "
-                                                    "stays as near as it can: %2")
-                                                     .arg(*pulled_)
-                                                     .arg(state.obstacle));
+    document_.raise(base::Severity::information,
+                    state.problem->sheet.limits.empty()
+                        ? tr("Node %1 cannot follow the hand: %2").arg(*pulled_).arg(state.obstacle)
+                        : tr("Node %1 cannot follow the hand: limits and pins hold it back.").arg(*pulled_));
   }
 }
 
 QString LiveLink::caption() const {
   const jobs::LiveState& state = session_.state();
   QString text = document_.title() + '\n' + tr("%1, live").arg(QString::fromStdString(session_.study()));
-  if (!state.problem->sheet.limits.empty()) text += tr(",  limits kept to %1").arg(state.violation, 0, 'g', 2);
+  if (!state.problem->sheet.limits.empty())
+    text += tr(",  at most %1 % above the limit").arg(100 * state.violation, 0, 'g', 2);
   if (pulled_ && *pulled_ < state.frame->positions.cols())
     text += '\n' + tr("node %1 moved by %2")
                        .arg(*pulled_)

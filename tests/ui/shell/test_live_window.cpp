@@ -120,7 +120,7 @@ class TestLiveWindow : public QObject {
     QTest::mouseMove(&viewport, outside);
     Q_EMIT viewport.nodePulled(node, Eigen::Vector3d(5, 5, 5));
     QTRY_VERIFY_WITH_TIMEOUT(!window_->live().state().obstacle.isEmpty(), patience);
-    QTRY_VERIFY(window_->messages().sentence().contains(QStringLiteral("node %1").arg(node)));
+    QTRY_VERIFY(window_->messages().sentence().contains(QStringLiteral("Node %1").arg(node)));
     const double then = window_->live().state().frame->time;
     QTRY_VERIFY_WITH_TIMEOUT(window_->live().state().frame->time > then, patience);
     QTest::mouseRelease(&viewport, Qt::LeftButton, {}, outside);
