@@ -44,6 +44,14 @@ struct MotionOptions {
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
 
+/// Drapes side by side, with their limits.
+struct DrapesOptions {
+  std::vector<std::string> scenes;
+  std::vector<std::string> results;  ///< a folder that `run` wrote for each scene; empty: they are computed
+  std::string out;
+};
+ExitStatus drapes(const DrapesOptions& options, const std::string& size);
+
 /// The JSON Schema, or the tables of scenes/README.md.
 ExitStatus schema(bool tables);
 

@@ -76,6 +76,16 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
   verb->callback([&] { status = plot(plotOptions, size); });
 
+  DrapesOptions drapesOptions;
+  verb = program.add_subcommand("drapes", "Draw stretch limits and the drapes they lead to, side by side");
+  verb->add_option("SCENE", drapesOptions.scenes, "Scene files")->required();
+  verb->add_option("--result", drapesOptions.results,
+                   "Folder that `run` wrote, once for each scene in their order; else the drapes are computed")
+      ->allow_extra_args(false);
+  verb->add_option("--out", drapesOptions.out, "PNG file")->required();
+  verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
+  verb->callback([&] { status = drapes(drapesOptions, size); });
+
   verb = program.add_subcommand("export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF");
   addMotion(verb, motion);
   verb->add_option("--out", motion.out, "Mesh file; its ending chooses the format")->required();

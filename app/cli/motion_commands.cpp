@@ -15,6 +15,7 @@
 #include "core/scene/result_charts.hpp"
 #include "core/scene/study.hpp"
 #ifdef PLIANT_HAS_RENDERER
+#include "app/cli/picture_size.hpp"
 #include "ui/render/chart_picture.hpp"
 #include "ui/render/image.hpp"
 #include "ui/render/offscreen.hpp"
@@ -142,8 +143,6 @@ ExitStatus exportMesh(const MotionOptions& options) {
 
 #ifdef PLIANT_HAS_RENDERER
 
-namespace {
-
 render::PictureOptions pictureOf(const std::string& size) {
   render::PictureOptions picture;
   int used = 0;
@@ -152,8 +151,6 @@ render::PictureOptions pictureOf(const std::string& size) {
     throw InputError("--size", "Expected WIDTHxHEIGHT, such as 1280x720, found " + scene::quote(size) + ".");
   return picture;
 }
-
-}  // namespace
 
 ExitStatus render(const MotionOptions& options, const std::string& size) {
   render::PictureOptions picture = pictureOf(size);

@@ -35,7 +35,7 @@ class TestCli : public QObject {
     QCOMPARE(runCli({"--version"}).output, "pliant-cli " PLIANT_VERSION "\n");
     const auto help = runCli({"--help"});
     QCOMPARE(help.status, 0);
-    for (const char* verb : {"list", "run", "validate", "render", "plot", "export", "schema"}) {
+    for (const char* verb : {"list", "run", "validate", "render", "drapes", "plot", "export", "schema"}) {
       QVERIFY2(help.output.contains(verb), verb);
       QCOMPARE(runCli({verb, "--help"}).status, 0);
     }

@@ -1,6 +1,7 @@
 #include "ui/panels/message_bar.hpp"
 
 #include <QEvent>
+#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -64,7 +65,7 @@ void MessageBar::changeEvent(QEvent* event) {
 void MessageBar::applyStyle() {
   const bool warning = severity_ == base::Severity::warning;
   icon_->setPixmap(panels::icon(warning ? QStringLiteral("warning") : QStringLiteral("information")).pixmap(16, 16));
-  const bool dark = plots::isDark(palette());
+  const bool dark = plots::isDark(QGuiApplication::palette());  // its own may still be that of the last sheet
   const QColor ground = warning ? (dark ? QColor(74, 56, 20) : QColor(255, 240, 209))
                                 : (dark ? QColor(24, 52, 68) : QColor(221, 238, 248));
   const QString sheet = QStringLiteral("#messageBar { background: %1; border: none; }").arg(ground.name());

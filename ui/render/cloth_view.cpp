@@ -18,7 +18,9 @@
 namespace pliant::render {
 namespace {
 
-constexpr double pinSize = 0.008, handSize = 0.012;  // of the model's extent
+constexpr double pinSize = 0.008, handSize = 0.012;      // of the model's extent
+constexpr double flatness = 0.6;                         // of one horizontal extent by the other
+constexpr double turnedAside = 0.12, tiltedDown = 0.06;  // of half a turn
 constexpr std::size_t mostDirections = 400;
 constexpr double violationShown = 0.02;  // of the range below the limit: less is not worth another scale
 
@@ -49,6 +51,7 @@ struct ClothView::Parts {
   FigureLayout layout;
   Bounds bounds;
   double mostRatio = 0, mostForce = 0;
+  bool upIsY = false;
   bool stale = false;
   bool directionsVisible = false;
   ClothField field = ClothField::stretchRatio;
@@ -128,7 +131,8 @@ struct ClothView::Parts {
       for (const cloth::Body& body : problem->bodies) bounds.add(body.points);
       figure.setMassRadii(layout, layout.massRadii(*problem->model));
       const mechanics::Vector& gravity = problem->model->gravity;
-      stage.camera().setUpAxis(gravity.size() == 3 && -gravity[1] > std::abs(gravity[2]));
+      upIsY = gravity.size() == 3 && -gravity[1] > std::abs(gravity[2]);
+      stage.camera().setUpAxis(upIsY);
     }
     stage.camera().setReach(bounds.corners());
     showFrame();
@@ -284,6 +288,24 @@ void ClothView::setFrame(int frame) {
   if (frame < -1 || frame >= static_cast<int>(p.frames.size()) || frame == p.frame) return;
   p.frame = frame;
   p.showFrame();
+}
+
+void ClothView::faceFrame() {
+  Parts& p = *parts_;
+  Bounds shown;
+  shown.add(p.positions);
+  if (const scene::ClothFrame* frame = p.shownFrame()) shown.add(frame->bodyPoints);
+  p.stage.camera().setReach(shown.corners());
+  const Eigen::Vector3d extent = shown.high - shown.low;
+  const double acrossX = extent.x(), acrossOther = p.upIsY ? extent.z() : extent.y();
+  const bool broadAlongX = acrossOther < flatness * acrossX, broadAcrossX = acrossX < flatness * acrossOther;
+  if (!broadAlongX && !broadAcrossX) {
+    p.stage.camera().setAxisView(AxisView::isometric);
+    return;
+  }
+  p.stage.camera().setAxisView(broadAcrossX ? AxisView::right : AxisView::front);
+  p.stage.camera().orbit(turnedAside, tiltedDown);
+  p.stage.camera().fit();
 }
 
 int ClothView::frame() const { return parts_->frame; }

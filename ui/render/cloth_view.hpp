@@ -33,6 +33,8 @@ class ClothView final : public View {
   void setFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames);
   /// Shows the frame with this number, if there is one.
   void setFrame(int frame);
+  /// Looks at the frame on show alone, not at all that the cloth reaches; at the broad side of what hangs as a sheet.
+  void faceFrame();
   /// -1: at rest.
   int frame() const;
   /// Greys the sheet: inputs have changed since.

@@ -61,6 +61,11 @@ void Gizmo::setTheme(const Palette& palette) {
 
 void Gizmo::setPixelRatio(double ratio) { ratio_ = ratio; }
 
+void Gizmo::setVisible(bool visible) {
+  visible_ = visible;
+  for (auto& axis : axes_) axis->SetVisibility(visible);
+}
+
 void Gizmo::follow(vtkCamera* camera, int windowWidth, int windowHeight) {
   if (windowWidth <= 0 || windowHeight <= 0) return;
   renderer_->SetViewport(0, 0, std::min(1.0, size * ratio_ / windowWidth), std::min(1.0, size * ratio_ / windowHeight));
@@ -73,7 +78,7 @@ void Gizmo::follow(vtkCamera* camera, int windowWidth, int windowHeight) {
   own->SetParallelScale(1.65);
   own->SetClippingRange(1, 10);
   // An axis seen from its end has no room for its letter.
-  for (int axis = 0; axis < 3; ++axis) letters_[axis]->SetVisibility(std::abs(direction[axis]) < 0.95);
+  for (int axis = 0; axis < 3; ++axis) letters_[axis]->SetVisibility(visible_ && std::abs(direction[axis]) < 0.95);
 }
 
 }  // namespace pliant::render

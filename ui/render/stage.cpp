@@ -72,7 +72,7 @@ void Stage::layOut() {
 void Stage::setCaption(const std::string& text) {
   captionText_ = text;
   caption_->SetInput(text.c_str());
-  caption_->SetVisibility(!text.empty());
+  caption_->SetVisibility(!text.empty() && !frameless_);
 }
 
 void Stage::setNotice(const std::string& text, const Color& color) {
@@ -109,6 +109,13 @@ void Stage::setFineQuality(bool fine) {
   if (window_) window_->SetMultiSamples(fine ? fineSamples : 0);
 }
 
+void Stage::setFrameless(bool frameless) {
+  frameless_ = frameless;
+  gizmo_.setVisible(!frameless);
+  caption_->SetVisibility(!frameless && !captionText_.empty());
+  setLegendVisible(legendVisible_);
+}
+
 void Stage::setFieldVisible(bool visible) {
   fieldVisible_ = visible;
   if (onField) onField();
@@ -116,8 +123,9 @@ void Stage::setFieldVisible(bool visible) {
 
 void Stage::setLegendVisible(bool visible) {
   legendVisible_ = visible;
-  legend_.setVisible(visible);
-  camera_.setRightMargin(visible ? Legend::width * ratio_ : 0);
+  const bool shown = visible && !frameless_;
+  legend_.setVisible(shown);
+  camera_.setRightMargin(shown ? Legend::width * ratio_ : 0);
 }
 
 }  // namespace pliant::render

@@ -39,6 +39,7 @@ class Stage {
   void setPixelRatio(double ratio);
   void setFineQuality(bool fine);
   void setFieldVisible(bool visible);
+  void setFrameless(bool frameless);
   /// Shows the scalar bar and keeps room for it.
   void setLegendVisible(bool visible);
 
@@ -63,6 +64,7 @@ class Stage {
   bool fine_ = true;
   bool fieldVisible_ = true;
   bool legendVisible_ = false;
+  bool frameless_ = false;
   std::string captionText_;
 };
 

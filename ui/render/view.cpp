@@ -11,6 +11,7 @@ void View::attach(vtkRenderWindow* window) { stage_->attach(window); }
 void View::setCaption(const std::string& text) { stage_->setCaption(text); }
 void View::setTheme(Theme theme) { stage_->setTheme(theme); }
 void View::setFieldVisible(bool visible) { stage_->setFieldVisible(visible); }
+void View::setFrameless(bool frameless) { stage_->setFrameless(frameless); }
 void View::setPixelRatio(double ratio) { stage_->setPixelRatio(ratio); }
 void View::setFineQuality(bool fine) { stage_->setFineQuality(fine); }
 void View::fit() { stage_->camera().fit(); }

@@ -30,6 +30,8 @@ class View {
   void setTheme(Theme theme);
   /// Colours surfaces by their field, with the scalar bar (on at first).
   void setFieldVisible(bool visible);
+  /// Without scalar bar, gizmo and labels, to stand in a figure.
+  void setFrameless(bool frameless);
   /// Pixels per device-independent pixel: scales text, lines and markers.
   void setPixelRatio(double ratio);
   /// Smooth edges (8 samples a pixel): cheap on a graphics processor, but six times the cost of a frame in software,

@@ -141,12 +141,13 @@ QString ClothLink::caption() const {
   QString text = document_.title();
   if (study_.empty() || !result_) return text;
   text += '\n' + QString::fromStdString(study_);
-  if (!result_->message.empty()) text += ",  " + QString::fromStdString(result_->message);
   if (!result_->steps.empty()) {
     double violation = 0;
     for (const scene::ClothStepRecord& step : result_->steps) violation = std::max(violation, step.violation);
     text += tr(",  %1 steps,  limits kept to %2").arg(result_->steps.size()).arg(violation, 0, 'g', 2);
   }
+  if (result_->termination == base::TerminationType::converged && !result_->message.empty())
+    text += '\n' + QString::fromStdString(result_->message);
   return text;
 }
 

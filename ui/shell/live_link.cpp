@@ -64,8 +64,7 @@ void LiveLink::showState() {
 QString LiveLink::caption() const {
   const jobs::LiveState& state = session_.state();
   QString text = document_.title() + '\n' + tr("%1, live").arg(QString::fromStdString(session_.study()));
-  if (!state.problem->sheet.limits.empty())
-    text += tr(",  at most %1 % above the limit").arg(100 * state.violation, 0, 'g', 2);
+  if (!state.problem->sheet.limits.empty()) text += tr(",  limits kept to %1").arg(state.violation, 0, 'g', 2);
   if (pulled_ && *pulled_ < state.frame->positions.cols())
     text += '\n' + tr("node %1 moved by %2")
                        .arg(*pulled_)

@@ -31,6 +31,7 @@
 #include "ui/plots/plot_style.hpp"
 #include "ui/shell/cloth_link.hpp"
 #include "ui/shell/command_palette.hpp"
+#include "ui/shell/drape_gallery.hpp"
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/job_status.hpp"
@@ -84,6 +85,7 @@ MainWindow::~MainWindow() {
   live_.disconnect();
   studyJobs_.disconnect(status_);
   quickJobs_.disconnect(status_);
+  drapeJobs_.disconnect();
   sceneJobs_.disconnect(status_);
   studyJobs_.disconnect(this);
   quickJobs_.disconnect(this);
@@ -105,6 +107,7 @@ void MainWindow::buildCentre() {
   stage_->setSpacing(0);
   stage_->addWidget(viewport_, 1);
   pages_->addWidget(stage);
+  makeDrapeGallery();
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -180,6 +183,7 @@ void MainWindow::connectParts() {
   connect(viewport_, &viewport::Viewport::tauChanged, motion_, &panels::MotionPanel::setTau);
   status_->watch(studyJobs_);
   status_->watch(sceneJobs_);
+  status_->watch(drapeJobs_);
   status_->watch(quickJobs_);
   connect(status_, &JobStatus::cancelRequested, this, &MainWindow::cancel);
   document_.setBackground([this](document::BackgroundWork work) {
@@ -197,7 +201,7 @@ void MainWindow::connectParts() {
   connect(&session_, &jobs::MotionSession::nodeChanged, tree_, &panels::SceneTree::setSelectedNode);
   connect(response_, &panels::ResponsePanel::readoutChanged, readout_, &QLabel::setText);
   connect(&document_, &document::Document::messageRaised, this, &MainWindow::report);
-  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_, &sceneJobs_})
+  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_, &drapeJobs_, &sceneJobs_})
     connect(runner, &jobs::JobRunner::logged, this, [this](base::Severity severity, const QString& sentence) {
       if (severity == base::Severity::warning)
         report(severity, sentence);
@@ -243,6 +247,7 @@ void MainWindow::cancel() {
   session_.cancel();
   document_.cancelEdits();
   sceneJobs_.cancelTopic(openTopic);
+  drapes_->cancel();
 }
 
 void MainWindow::chooseFile() {

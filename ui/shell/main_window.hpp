@@ -36,6 +36,7 @@ class Viewport;
 namespace pliant::shell {
 
 class CommandPalette;
+class DrapeGallery;
 class Gallery;
 class JobStatus;
 class LiveBar;
@@ -65,6 +66,7 @@ class MainWindow final : public QMainWindow {
   panels::SceneTree& sceneTree() { return *tree_; }
   panels::LimitPanel& limits() { return *limits_; }
   panels::EnergyPanel& energies() { return *energies_; }
+  DrapeGallery& drapes() { return *drapes_; }
 
   QSize sizeHint() const override { return {1280, 800}; }
 
@@ -80,6 +82,9 @@ class MainWindow final : public QMainWindow {
   void connectParts();
   void makeActions();
   void makeClothActions();
+  void makeDrapeGallery();
+  void showDrapes(bool shown);
+  void addShownDrape();
   void makeLiveActions();
   void makeLiveBar();
   void openLive();
@@ -116,6 +121,7 @@ class MainWindow final : public QMainWindow {
   document::Document document_;
   jobs::JobRunner studyJobs_;
   jobs::JobRunner quickJobs_;
+  jobs::JobRunner drapeJobs_;  ///< computes drapes that are compared
   jobs::JobRunner sceneJobs_;  ///< reads scenes and builds models, so that neither waits for a solve
   jobs::StudyRunner studies_;
   jobs::MotionSession session_;
@@ -126,6 +132,7 @@ class MainWindow final : public QMainWindow {
 
   QStackedWidget* pages_ = nullptr;
   Gallery* gallery_ = nullptr;
+  DrapeGallery* drapes_ = nullptr;
   QVBoxLayout* stage_ = nullptr;  ///< the viewport and what stands below it
   viewport::Viewport* viewport_ = nullptr;
   panels::MessageBar* messages_ = nullptr;
@@ -142,6 +149,7 @@ class MainWindow final : public QMainWindow {
   QLabel* readout_ = nullptr;
   QToolButton* warnings_ = nullptr;
   CommandPalette* palette_ = nullptr;
+  QByteArray docksBefore_;  ///< the drapes had the window to themselves
   std::vector<QDockWidget*> docks_;
   std::vector<QDockWidget*> harmonicDocks_, clothDocks_;
 };

@@ -40,8 +40,10 @@ void MainWindow::makeActions() {
       tr("Save the scene as another file"), [this] { saveAs(); });
   add("file.export", tr("&Export…"), "export", QKeySequence(Qt::CTRL | Qt::Key_E),
       tr("Export a picture, the deformed mesh or the curve"), [this] { exportShown(); });
-  add("file.gallery", tr("Shipped Scenes"), "gallery", {}, tr("Show the scenes that come with Pliant"),
-      [this] { pages_->setCurrentIndex(pages_->currentIndex() == 0 && !document_.isEmpty() ? 1 : 0); });
+  add("file.gallery", tr("Shipped Scenes"), "gallery", {}, tr("Show the scenes that come with Pliant"), [this] {
+    showDrapes(false);
+    pages_->setCurrentIndex(pages_->currentIndex() == 0 && !document_.isEmpty() ? 1 : 0);
+  });
   add("file.quit", tr("&Quit"), "", QKeySequence(Qt::CTRL | Qt::Key_Q), tr("Close the window"), [this] { close(); });
 
   add("edit.undo", tr("&Undo"), "undo", QKeySequence::Undo, tr("Undo the last edit"), [this] { undo(); });
@@ -133,10 +135,27 @@ void MainWindow::makeMenus() {
   connect(recent, &QMenu::aboutToShow, this, [this, recent] { fillRecentMenu(recent); });
   fill(file, {"file.gallery", "-", "file.save", "file.saveAs", "file.export", "file.exportFrames", "-", "file.quit"});
   fill(menuBar()->addMenu(tr("&Edit")), {"edit.undo", "edit.redo", "-", "edit.find"});
-  fill(menuBar()->addMenu(tr("&View")),
-       {"view.play", "view.fit", "-", "view.front", "view.back", "view.right", "view.left", "view.top", "view.bottom",
-        "view.isometric", "-", "view.stretch", "view.limitForce", "view.directions", "view.hertz", "-",
-        "view.theme.system", "view.theme.light", "view.theme.dark"});
+  fill(menuBar()->addMenu(tr("&View")), {"view.play",
+                                         "view.fit",
+                                         "-",
+                                         "view.front",
+                                         "view.back",
+                                         "view.right",
+                                         "view.left",
+                                         "view.top",
+                                         "view.bottom",
+                                         "view.isometric",
+                                         "-",
+                                         "view.drapes",
+                                         "-",
+                                         "view.stretch",
+                                         "view.limitForce",
+                                         "view.directions",
+                                         "view.hertz",
+                                         "-",
+                                         "view.theme.system",
+                                         "view.theme.light",
+                                         "view.theme.dark"});
   fill(menuBar()->addMenu(tr("&Model")), {"model.reset", "model.nextProbe"});
   QMenu* study = menuBar()->addMenu(tr("&Study"));
   connect(study, &QMenu::aboutToShow, this, [this, study] { fillStudyMenu(study); });
@@ -223,6 +242,7 @@ void MainWindow::refreshActions() {
   for (const char* id : {"file.export", "view.fit", "model.nextProbe"}) enable(id, open);
   for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
   enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
+  actions_.find(QStringLiteral("view.drapes"))->setChecked(pages_->currentIndex() == 2);
   enable("live.open", liveBar_ && !liveBar_->study().empty());
   for (const char* id : {"live.step", "live.reset", "live.record"}) enable(id, live_.isOpen());
   enable("study.run", open && !document_.studies().empty() && !busy && !editing);

@@ -2,12 +2,15 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "core/base/error.hpp"
 #include "ui/shell/cloth_link.hpp"
+#include "ui/shell/drape_gallery.hpp"
 #include "ui/shell/exporter.hpp"
+#include "ui/shell/gallery.hpp"
 #include "ui/shell/live_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -32,12 +35,54 @@ void MainWindow::makeClothActions() {
     viewport_->clothView().setDirectionsVisible(on);
     viewport_->redrawCloth();
   });
+  QAction* drapes = checkable("view.drapes", tr("&Drapes Side by Side"),
+                              tr("Compare drapes of several scenes, with their stretch limits above"));
+  connect(drapes, &QAction::triggered, this, &MainWindow::showDrapes);
   actions_.add({QStringLiteral("file.exportFrames"),
                 tr("Export &Frames…"),
                 {},
                 {},
                 tr("Export all frames of a cloth as an animation or as numbered meshes")},
                [this] { exportFrames(); });
+}
+
+void MainWindow::makeDrapeGallery() {
+  drapes_ = new DrapeGallery(drapeJobs_, quickJobs_);
+  pages_->addWidget(drapes_);
+  connect(drapes_, &DrapeGallery::messageRaised, this, &MainWindow::report);
+  connect(drapes_, &DrapeGallery::addRequested, this, &MainWindow::addShownDrape);
+  connect(drapes_, &DrapeGallery::closeRequested, this, [this] { showDrapes(false); });
+  connect(drapes_, &DrapeGallery::exportRequested, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Export the figure"), QStringLiteral("drapes.png"), tr("Pictures (*.png)"));
+    if (!file.isEmpty()) drapes_->exportTo(file);
+  });
+}
+
+/// The figure is wide: it has the window to itself.
+void MainWindow::showDrapes(bool shown) {
+  const bool before = pages_->currentWidget() == drapes_;
+  if (shown == before) return;
+  if (shown) {
+    docksBefore_ = saveState();
+    pages_->setCurrentWidget(drapes_);
+    for (QDockWidget* dock : docks_) dock->hide();
+    drapes_->fillAtFirst();
+  } else {
+    pages_->setCurrentWidget(document_.isEmpty() ? static_cast<QWidget*>(gallery_) : viewport_->parentWidget());
+    restoreState(docksBefore_);
+  }
+  refreshActions();
+}
+
+void MainWindow::addShownDrape() {
+  const int frame = viewport_->showsCloth() ? viewport_->clothView().frame() : -1;
+  if (!viewport_->showsCloth()) {
+    report(base::Severity::warning, tr("No cloth is shown: run a study of one first."));
+    return;
+  }
+  drapes_->add({document_.title().toStdString(), viewport_->clothProblem(),
+                frame < 0 ? nullptr : viewport_->clothFrames().at(static_cast<std::size_t>(frame))});
 }
 
 void MainWindow::makeLiveActions() {
