@@ -3,15 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numeric>
-#include <queue>
-#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/solvers/cone_certificate.hpp"
+#include "core/solvers/cone_contradiction.hpp"
 #include "core/solvers/cone_elements.hpp"
+#include "core/solvers/cone_history.hpp"
 
 namespace pliant::solvers {
 
@@ -19,8 +16,15 @@ namespace {
 
 /// Fraction of the way to the boundary of the cones.
 constexpr double stepFraction = 0.99;
-/// Corrections of one predictor, and the step length with which nothing is left to gain by more of them.
+/// The target of an iteration is the power of what the predictor would leave of the complementarity. Corrections reach
+/// farther than the predictor, so it is higher than the usual 3.
+constexpr double targetPower = 5;
+/// The first target, by the objective over the number of bounds.
+constexpr double coldBarrier = 10;
+constexpr double warmBarrier = 3;
+/// Corrections of one predictor of both kinds, and the step length with which nothing is left to gain by more of them.
 constexpr int mostCorrections = 4;
+constexpr int mostCentralisings = 3;
 constexpr double longEnough = 0.95;
 constexpr double smallestGain = 0.02;
 constexpr double shortStep = 0.2;
@@ -30,71 +34,6 @@ constexpr int mostStalls = 3;
 constexpr int mostRestarts = 2;  ///< with a larger barrier
 
 constexpr double largestInertia = 1e8;
-constexpr int mostAttempts = 40;  ///< to find by how much the limits would have to be looser
-
-std::string percentText(double fraction) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g %%", 100 * fraction);
-  return text;
-}
-
-/// The largest stretch in any direction that some bounds allow.
-double largestStretch(const MetricBounds& bounds) {
-  double stretch = std::numeric_limits<double>::infinity();
-  for (const Eigen::Matrix2d& ellipse : bounds.ellipses)
-    stretch = std::min(stretch, std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(ellipse).eigenvalues()[1]));
-  for (std::size_t i = 0; i < bounds.directions.size(); ++i)
-    for (std::size_t j = i + 1; j < bounds.directions.size(); ++j) {
-      // ‖F‖ <= ‖F [v w]‖ ‖[v w]⁻¹‖ with ‖Fv‖, ‖Fw‖ <= 1.
-      Eigen::Matrix2d pair;
-      pair << bounds.directions[i], bounds.directions[j];
-      if (std::abs(pair.determinant()) > 1e-12) stretch = std::min(stretch, std::sqrt(2) * pair.inverse().norm());
-    }
-  return stretch;
-}
-
-/// How far nodes can be from a fixed one.
-struct Reach {
-  int anchor = -1;      ///< a fixed node, -1: none hangs together with this node
-  double distance = 0;  ///< [m]
-};
-
-/// Shortest paths over the elements' edges, each as long as its bounds allow (its rest length follows from the
-/// weights).
-std::vector<Reach> reaches(const ConeConstraints& constraints) {
-  struct Edge {
-    int node;
-    double length;
-  };
-  std::vector<std::vector<Edge>> edges(constraints.nodeCount);
-  for (const ConeElement& element : constraints.elements) {
-    Eigen::Matrix2d weights;
-    weights << element.weights[1], element.weights[2];
-    const Eigen::Matrix2d rest = weights.transpose().inverse();  // columns: x_1 - x_0 and x_2 - x_0
-    const double stretch = largestStretch(constraints.bounds[element.bounds]);
-    const double lengths[3] = {rest.col(0).norm(), rest.col(1).norm(), (rest.col(0) - rest.col(1)).norm()};
-    constexpr int ends[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    for (int k = 0; k < 3; ++k) {
-      const int a = element.nodes[ends[k][0]], b = element.nodes[ends[k][1]];
-      edges[a].push_back({b, stretch * lengths[k]});
-      edges[b].push_back({a, stretch * lengths[k]});
-    }
-  }
-  std::vector<Reach> result(constraints.nodeCount);
-  using Entry = std::tuple<double, int, int>;  // distance, node, anchor
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (int node = 0; node < constraints.nodeCount; ++node)
-    if (constraints.fixed[node]) queue.emplace(0, node, node);
-  while (!queue.empty()) {
-    const auto [distance, node, anchor] = queue.top();
-    queue.pop();
-    if (result[node].anchor >= 0) continue;
-    result[node] = {anchor, distance};
-    for (const Edge& edge : edges[node])
-      if (result[edge.node].anchor < 0) queue.emplace(distance + edge.length, edge.node, anchor);
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -104,8 +43,7 @@ struct ConeProgram::Implementation {
         vertexOfNode(constraints.nodeCount, -1),
         vertexCount(numberVertices()),
         cholesky(vertexCount, pairs()),
-        elements(constraints, vertexOfNode, cholesky),
-        reach(reaches(constraints)) {
+        elements(constraints, vertexOfNode, cholesky) {
     for (const int vertex : nodeOfVertex)
       diagonal.push_back(cholesky.place(vertexOfNode[vertex], vertexOfNode[vertex]));
   }
@@ -156,33 +94,12 @@ struct ConeProgram::Implementation {
       dx.col(nodeOfVertex[v]) = unknowns.segment<3>(3 * static_cast<Eigen::Index>(v));
   }
 
-  /// What keeps the limits is no farther than this, if anything does: nodes that hang on a fixed one are within their
-  /// reach of it, and the others may all lie in one place.
-  double largestObjective(const Positions& candidate) const {
-    double moment = 0, sum = 0;
-    Eigen::Vector3d first = Eigen::Vector3d::Zero();
-    for (int node = 0; node < constraints.nodeCount; ++node) {
-      const auto& [anchor, distance] = reach[node];
-      const double mass = constraints.masses[node];
-      if (anchor < 0) {
-        moment += mass;
-        first += mass * candidate.col(node);
-      } else {
-        const double offset = (candidate.col(node) - candidate.col(anchor)).norm() + distance;
-        sum += 0.5 * mass * offset * offset;
-      }
-    }
-    for (int node = 0; node < constraints.nodeCount; ++node)
-      if (reach[node].anchor < 0)
-        sum += 0.5 * constraints.masses[node] * (candidate.col(node) - first / moment).squaredNorm();
-    return sum;
-  }
-
   void addMasses(double inertia) {
     double* values = cholesky.values();
     for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
       for (int i = 0; i < 3; ++i)
-        values[diagonal[v].offset + Eigen::Index{i} * (diagonal[v].stride + 1)] += constraints.masses[nodeOfVertex[v]];
+        values[diagonal[v].offset + Eigen::Index{i} * (diagonal[v].stride + 1)] +=
+            inertia * constraints.masses[nodeOfVertex[v]];
   }
 
   /// Where fixed nodes have moved since the start, lets the others follow them smoothly (a harmonic displacement), lest
@@ -203,9 +120,6 @@ struct ConeProgram::Implementation {
 
   ConeSolution solve(const Positions& candidate, const Positions& start, const ConeProgramOptions& options,
                      base::ExecutionContext& context);
-  ConeSolution explain(const Positions& candidate, const Positions& start, const ConeProgramOptions& options,
-                       base::ExecutionContext& context, ConeSolution failed);
-  void nameContradiction(ConeSolution& solution) const;
 
   ConeConstraints constraints;
   std::vector<int> vertexOfNode;
@@ -213,12 +127,10 @@ struct ConeProgram::Implementation {
   int vertexCount;
   math::BlockCholesky cholesky;
   ConeElements elements;
-  std::vector<Reach> reach;                          ///< per node
   std::vector<math::BlockCholesky::Place> diagonal;  ///< per vertex
 
   Eigen::VectorXd unknowns;
-  bool hasMultipliers = false;
-  double lastObjective = 0;
+  ConeHistory history;
 };
 
 ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, const Positions& start,
@@ -246,7 +158,6 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
     report.termination = base::TerminationType::converged;
     report.iterations.push_back({});
     report.seconds = stopwatch.seconds();
-    hasMultipliers = false;
     return solution;
   }
 
@@ -263,13 +174,15 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
 
   // The objective is about that of the last problem, or far below the distance from here. One that is guessed too small
   // leads into corners.
-  const double distance = std::max(objectiveAt(x), absoluteGap);
-  const double expected = lastObjective > 0 ? std::clamp(lastObjective, 1e-4 * distance, distance) : distance;
-  const bool warm = options.warmStart && hasMultipliers;
-  double barrier0 =
-      (warm ? 1 : 10) * expected / std::max<double>(1, 2 * static_cast<double>(constraints.elements.size()));
-  elements.start(x, barrier0, warm);
+  const double distance = std::max(objectiveAt(x), absoluteGap), last = history.lastObjective();
+  const double expected = last > 0 ? std::clamp(last, 1e-4 * distance, distance) : distance;
+  const std::optional<ConeHistory::Match> match =
+      options.warmStart ? history.bestFor(elements, constraints, x, candidate) : std::nullopt;
+  if (match) elements.setMultipliers(*match->multipliers, match->factor);
+  double barrier0 = (match ? warmBarrier : coldBarrier) * expected / std::max(1, elements.boundCount());
+  elements.start(x, barrier0, match.has_value());
   const Positions x0 = x;
+  const double stretch0 = elements.largestStretch(x0);
   int restarts = 0;
 
   const auto finish = [&](base::TerminationType termination, std::string message) {
@@ -277,8 +190,7 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
     report.message = std::move(message);
     report.seconds = stopwatch.seconds();
     elements.report(solution);
-    hasMultipliers = report.converged();
-    if (report.converged()) lastObjective = solution.objective;
+    if (report.converged()) history.remember(elements.multipliers(), solution.objective);
     return solution;
   };
 
@@ -338,12 +250,10 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
       solve(right, dx);
       const double affine = std::min(1.0, stepFraction * elements.direct(dx));
       const double ratio = elements.complementarityAfter(affine) / at.complementarity;
-      target = ratio * ratio * ratio * barrier;
+      target = std::pow(ratio, targetPower) * barrier;
     }
     double best = 0;
-    const auto tryCorrection = [&](double towards, double weight) {
-      correctedForces.setZero();
-      elements.correct(towards, weight, correctedForces);
+    const auto tryDirection = [&] {
       right = -(gradient + correctedForces);
       solve(right, dx);
       const double step = std::min(1.0, stepFraction * elements.direct(dx));
@@ -353,8 +263,23 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
       elements.keepDirection();
       return best <= longEnough;
     };
-    if (closed) tryCorrection(target, 0);
-    for (int correction = 0; !closed && correction < mostCorrections && tryCorrection(target, 1); ++correction) {
+    const auto tryCorrection = [&](double towards, double weight) {
+      correctedForces.setZero();
+      elements.correct(towards, weight, correctedForces);
+      return tryDirection();
+    };
+    const auto tryCentralising = [&] {
+      correctedForces.setZero();
+      elements.centralise(target, std::min(1.0, 1.3 * best + 0.1), correctedForces);
+      return tryDirection();
+    };
+    if (closed) {
+      tryCorrection(target, 0);
+    } else {
+      for (int k = 0; k < mostCorrections && tryCorrection(target, 1); ++k) {
+      }
+      for (int k = 0; best <= longEnough && k < mostCentralisings && tryCentralising(); ++k) {
+      }
     }
     // Products of whole steps mislead where the step is short.
     if (best < shortStep) tryCorrection(0.3 * barrier, 0);
@@ -371,85 +296,11 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
       elements.start(x, barrier0, false);
     } else if (options.explainFailure) {
       finish(base::TerminationType::failed, "");
-      return explain(candidate, start, options, context, std::move(solution));
+      return explainFailure(constraints, candidate, start, x0, stretch0, options, context, std::move(solution));
     } else {
       return finish(base::TerminationType::failed, "The projection does not get on.");
     }
   }
-}
-
-/// Limits that are all the looser by one factor are kept by something if the factor is large enough. Close to the
-/// smallest such factor the multipliers grow until they prove, if it is above 1, that nothing keeps the limits. Whether
-/// anything does is no matter of the candidate, so the start is projected in its place: a candidate that is stretched
-/// evenly would keep looser limits without any multipliers.
-ConeSolution ConeProgram::Implementation::explain(const Positions& candidate, const Positions& start,
-                                                  const ConeProgramOptions& options, base::ExecutionContext& context,
-                                                  ConeSolution failed) {
-  const base::Stopwatch stopwatch;
-  Positions held = start, feasible, displacement(3, constraints.nodeCount);
-  for (int node = 0; node < constraints.nodeCount; ++node)
-    if (constraints.fixed[node]) held.col(node) = candidate.col(node);
-  feasible = held;
-  const double farthest = largestObjective(held);
-  const double size = (held.rowwise().maxCoeff() - held.rowwise().minCoeff()).norm();
-  followFixedNodes(start, constraints.masses.sum() * size * size, feasible, displacement);
-
-  ConeProgramOptions relaxedOptions = options;
-  relaxedOptions.explainFailure = false;
-  relaxedOptions.warmStart = false;
-  relaxedOptions.relativeGap = 1e-6;
-  double possible = 1.01 * std::max(1.0, elements.largestStretch(feasible)), impossible = 1;
-  for (int attempt = 0; attempt < mostAttempts && !context.cancelRequested(); ++attempt) {
-    const double factor =
-        attempt == 0 ? possible : 1 + std::sqrt((possible - 1) * std::max(impossible - 1, 1e-2 * (possible - 1)));
-    ConeConstraints relaxed = constraints;
-    for (MetricBounds& bounds : relaxed.bounds) {
-      for (Eigen::Matrix2d& ellipse : bounds.ellipses) ellipse *= factor * factor;
-      for (Eigen::Vector2d& direction : bounds.directions) direction /= factor;
-    }
-    ConeSolution solution = Implementation(std::move(relaxed)).solve(held, feasible, relaxedOptions, context);
-    if (!solution.report.converged()) {
-      impossible = factor;
-      if (impossible >= possible * (1 - 1e-12)) break;
-      continue;
-    }
-    possible = factor;
-    feasible = solution.positions;
-    solution.ellipseMultipliers /= factor * factor;
-    solution.directionMultipliers /= factor * factor;
-    if (provenDistance(constraints, held, solution) > farthest) {
-      certify(constraints, candidate, solution);
-      solution.report = failed.report;
-      solution.report.termination = base::TerminationType::infeasible;
-      solution.report.message =
-          "The limits cannot be kept: fixed nodes are farther apart than the sheet may stretch; "
-          "it would have to stretch " +
-          percentText(impossible - 1) + " to " + percentText(possible - 1) + " farther.";
-      solution.report.seconds += stopwatch.seconds();
-      nameContradiction(solution);
-      return solution;
-    }
-    if (possible - 1 < 1e-8) break;
-  }
-  failed.report.message = "The projection does not get on; the limits leave hardly any room between fixed nodes.";
-  failed.report.seconds += stopwatch.seconds();
-  return failed;
-}
-
-/// Who bears the largest of the forces that prove a contradiction is who contradicts whom.
-void ConeProgram::Implementation::nameContradiction(ConeSolution& solution) const {
-  const auto largestFirst = [](const Eigen::VectorXd& sizes) {
-    std::vector<int> order(sizes.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return sizes[a] > sizes[b]; });
-    const double least = 0.05 * sizes.maxCoeff();
-    std::erase_if(order, [&](int i) { return sizes[i] <= least; });
-    return order;
-  };
-  solution.conflictingElements = largestFirst(solution.multipliers.topRows(2).colwise().sum().transpose());
-  Eigen::VectorXd pull = limitForces(constraints, solution).colwise().norm();
-  for (const int node : nodeOfVertex) pull[node] = 0;
-  solution.conflictingNodes = largestFirst(pull);
 }
 
 ConeProgram::ConeProgram(ConeConstraints constraints)
