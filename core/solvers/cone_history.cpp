@@ -9,18 +9,16 @@ void ConeHistory::remember(ConeElements::Multipliers multipliers, double objecti
   if (entries_.size() > length) entries_.pop_back();
 }
 
-std::optional<ConeHistory::Match> ConeHistory::bestFor(const ConeElements& elements, const ConeConstraints& constraints,
+std::optional<ConeHistory::Match> ConeHistory::bestFor(const ConeElements& elements, const ConeObjective& objective,
                                                        const Positions& x, const Positions& candidate) const {
   std::optional<Match> best;
-  Positions forces(3, constraints.nodeCount);
+  Positions forces(3, x.cols());
   for (const Entry& entry : entries_) {
     forces.setZero();
     const double supportGap = elements.addForces(entry.multipliers, x, forces);
     // D(t) = t gain - ½ t² squared for the multiple t.
     const double gain = (forces.array() * (candidate - x).array()).sum() - supportGap;
-    double squared = 0;
-    for (int node = 0; node < constraints.nodeCount; ++node)
-      if (!constraints.fixed[node]) squared += forces.col(node).squaredNorm() / constraints.masses[node];
+    const double squared = objective.inverseNorm(forces);
     if (!(gain > 0 && squared > 0)) continue;
     const double bound = 0.5 * gain * gain / squared;
     if (!best || bound > best->bound) best = {&entry.multipliers, gain / squared, bound};

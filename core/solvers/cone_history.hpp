@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/solvers/cone_elements.hpp"
+#include "core/solvers/cone_objective.hpp"
 
 namespace pliant::solvers {
 
@@ -24,7 +25,7 @@ class ConeHistory {
   };
   /// The multipliers, and the multiple of them, that prove the largest bound on the projection of `candidate`, by their
   /// forces at x (both 3 x nodes); none if none proves any.
-  std::optional<Match> bestFor(const ConeElements& elements, const ConeConstraints& constraints, const Positions& x,
+  std::optional<Match> bestFor(const ConeElements& elements, const ConeObjective& objective, const Positions& x,
                                const Positions& candidate) const;
 
  private:

@@ -9,6 +9,7 @@
 #include "core/solvers/cone_contradiction.hpp"
 #include "core/solvers/cone_elements.hpp"
 #include "core/solvers/cone_history.hpp"
+#include "core/solvers/cone_objective.hpp"
 
 namespace pliant::solvers {
 
@@ -38,15 +39,14 @@ constexpr double largestInertia = 1e8;
 }  // namespace
 
 struct ConeProgram::Implementation {
-  explicit Implementation(ConeConstraints given)
+  Implementation(ConeConstraints given, ConeStiffness stiffness)
       : constraints(checked(std::move(given))),
         vertexOfNode(constraints.nodeCount, -1),
         vertexCount(numberVertices()),
-        cholesky(vertexCount, pairs()),
-        elements(constraints, vertexOfNode, cholesky) {
-    for (const int vertex : nodeOfVertex)
-      diagonal.push_back(cholesky.place(vertexOfNode[vertex], vertexOfNode[vertex]));
-  }
+        couplings(pairs(stiffness)),
+        objective(constraints, vertexOfNode, std::move(stiffness), couplings),
+        cholesky(vertexCount, couplings),
+        elements(constraints, vertexOfNode, cholesky) {}
 
   static ConeConstraints checked(ConeConstraints given) {
     for (int node = 0; node < given.nodeCount; ++node)
@@ -74,7 +74,7 @@ struct ConeProgram::Implementation {
     return static_cast<int>(nodeOfVertex.size());
   }
 
-  std::vector<std::array<int, 2>> pairs() const {
+  std::vector<std::array<int, 2>> pairs(const ConeStiffness& stiffness) const {
     std::vector<std::array<int, 2>> list;
     for (const ConeElement& element : constraints.elements)
       for (int a = 0; a < 3; ++a)
@@ -82,6 +82,11 @@ struct ConeProgram::Implementation {
           const int i = vertexOfNode[element.nodes[a]], j = vertexOfNode[element.nodes[b]];
           if (i >= 0 && j >= 0) list.push_back({i, j});
         }
+    for (std::size_t s = 0; s < stiffness.rows.size(); ++s) {
+      const int i = vertexOfNode[stiffness.rows[s] / 3], j = vertexOfNode[stiffness.columns[s] / 3];
+      if (i >= 0 && j >= 0 && i != j && stiffness.rows[s] % 3 == 0 && stiffness.columns[s] % 3 == 0)
+        list.push_back({i, j});
+    }
     return list;
   }
 
@@ -94,14 +99,6 @@ struct ConeProgram::Implementation {
       dx.col(nodeOfVertex[v]) = unknowns.segment<3>(3 * static_cast<Eigen::Index>(v));
   }
 
-  void addMasses(double inertia) {
-    double* values = cholesky.values();
-    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
-      for (int i = 0; i < 3; ++i)
-        values[diagonal[v].offset + Eigen::Index{i} * (diagonal[v].stride + 1)] +=
-            inertia * constraints.masses[nodeOfVertex[v]];
-  }
-
   /// Where fixed nodes have moved since the start, lets the others follow them smoothly (a harmonic displacement), lest
   /// the elements between be drawn out to many times their limit.
   void followFixedNodes(const Positions& start, double stiffness, Positions& x, Positions& displacement) {
@@ -110,7 +107,7 @@ struct ConeProgram::Implementation {
     Positions forces = Positions::Zero(3, constraints.nodeCount);
     cholesky.clear();
     elements.addLaplacian(stiffness, displacement, forces, cholesky);
-    addMasses(1);
+    objective.addTo(cholesky, 1);
     if (cholesky.factorize()) {
       solve(-forces, displacement);
       x = start + displacement;
@@ -125,9 +122,10 @@ struct ConeProgram::Implementation {
   std::vector<int> vertexOfNode;
   std::vector<int> nodeOfVertex;
   int vertexCount;
+  std::vector<std::array<int, 2>> couplings;  ///< pairs of vertices
+  ConeObjective objective;
   math::BlockCholesky cholesky;
   ConeElements elements;
-  std::vector<math::BlockCholesky::Place> diagonal;  ///< per vertex
 
   Eigen::VectorXd unknowns;
   ConeHistory history;
@@ -137,7 +135,6 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
                                                 const ConeProgramOptions& options, base::ExecutionContext& context) {
   const base::Stopwatch stopwatch;
   const int nodes = constraints.nodeCount;
-  const Eigen::VectorXd& masses = constraints.masses;
   if (candidate.cols() != nodes || start.cols() != nodes || !candidate.allFinite() || !start.allFinite())
     throw base::InputError(
         "", "A projection needs a finite position for each of its " + std::to_string(nodes) + " nodes.");
@@ -162,22 +159,23 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
   }
 
   const Eigen::Vector3d low = candidate.rowwise().minCoeff(), high = candidate.rowwise().maxCoeff();
-  const double size = (high - low).norm(), totalMass = masses.sum();
+  const double size = (high - low).norm(), totalMass = constraints.masses.sum();
   const double absoluteGap = options.absoluteGap * totalMass * size * size;
-  const auto objectiveAt = [&](const Positions& at) {
-    return 0.5 * ((at - candidate).colwise().squaredNorm() * masses).value();
-  };
-
   Positions forces(3, nodes), predictorForces(3, nodes), correctedForces(3, nodes), dx = Positions::Zero(3, nodes);
   Positions keptDx = dx, gradient(3, nodes), right(3, nodes);
   followFixedNodes(start, totalMass * size * size, x, dx);
+  const auto objectiveAt = [&](const Positions& at) {
+    right = at - candidate;
+    objective.multiply(right, gradient);
+    return 0.5 * (right.array() * gradient.array()).sum();
+  };
 
   // The objective is about that of the last problem, or far below the distance from here. One that is guessed too small
   // leads into corners.
   const double distance = std::max(objectiveAt(x), absoluteGap), last = history.lastObjective();
   const double expected = last > 0 ? std::clamp(last, 1e-4 * distance, distance) : distance;
   const std::optional<ConeHistory::Match> match =
-      options.warmStart ? history.bestFor(elements, constraints, x, candidate) : std::nullopt;
+      options.warmStart ? history.bestFor(elements, objective, x, candidate) : std::nullopt;
   if (match) elements.setMultipliers(*match->multipliers, match->factor);
   double barrier0 = (match ? warmBarrier : coldBarrier) * expected / std::max(1, elements.boundCount());
   elements.start(x, barrier0, match.has_value());
@@ -200,17 +198,15 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
     predictorForces.setZero();
     cholesky.clear();
     const ConeElements::Linearization at = elements.linearize(x, forces, predictorForces, cholesky);
-    gradient = (x - candidate) * masses.asDiagonal();
-    double squaredResidual = 0, largestResidual = 0, largestGradient = 0;
+    solution.objective = objectiveAt(x);
+    right = gradient + forces;  // the residual
+    double largestResidual = 0, largestGradient = 0;
     for (const int node : nodeOfVertex) {
-      const Eigen::Vector3d residual = gradient.col(node) + forces.col(node);
-      squaredResidual += residual.squaredNorm() / masses[node];
-      largestResidual = std::max(largestResidual, residual.cwiseAbs().maxCoeff());
+      largestResidual = std::max(largestResidual, right.col(node).cwiseAbs().maxCoeff());
       largestGradient = std::max(largestGradient, gradient.col(node).cwiseAbs().maxCoeff());
     }
     // P - D, without the cancellation that computing D first would have.
-    const double gap = 0.5 * squaredResidual + at.supportGap;
-    solution.objective = objectiveAt(x);
+    const double gap = 0.5 * objective.inverseNorm(right) + at.supportGap;
     solution.bound = solution.objective - gap;
     solution.violation = std::max(0.0, at.largestStretch - 1);
     solution.dualResidual = largestGradient > 0 ? largestResidual / largestGradient : 0;
@@ -229,7 +225,7 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
 
     // Very near to the optimum the matrix may lose its small eigenvalues to rounding; more inertia keeps them.
     double inertia = 1;
-    for (addMasses(inertia); !cholesky.factorize(); addMasses(inertia)) {
+    for (objective.addTo(cholesky, inertia); !cholesky.factorize(); objective.addTo(cholesky, inertia)) {
       inertia *= 100;
       if (inertia > largestInertia)
         return finish(
@@ -303,10 +299,16 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
   }
 }
 
-ConeProgram::ConeProgram(ConeConstraints constraints)
-    : implementation_(std::make_unique<Implementation>(std::move(constraints))) {}
+ConeProgram::ConeProgram(ConeConstraints constraints, ConeStiffness stiffness)
+    : implementation_(std::make_unique<Implementation>(std::move(constraints), std::move(stiffness))) {}
 ConeProgram::~ConeProgram() = default;
 ConeProgram::ConeProgram(ConeProgram&&) noexcept = default;
+
+const ConeConstraints& ConeProgram::constraints() const { return implementation_->constraints; }
+
+bool ConeProgram::setStiffness(const Eigen::VectorXd& entries, double inertia) {
+  return implementation_->objective.setStiffness(entries, inertia);
+}
 
 ConeSolution ConeProgram::solve(const Eigen::Matrix3Xd& candidate, const Eigen::Matrix3Xd& start,
                                 const ConeProgramOptions& options, base::ExecutionContext& context) {
