@@ -72,19 +72,9 @@ ConeElements::ConeElements(const ConeConstraints& constraints, const std::vector
         const ConeElement& element = constraints.elements[e];
         group.element[lane] = real ? e : -1;
         mask[lane] = real ? 1 : 0;
-        constexpr int rows[6] = {0, 1, 2, 1, 2, 2}, columns[6] = {0, 1, 2, 0, 0, 1};
         for (int k = 0; k < 3; ++k) {
           group.nodes[k][lane] = element.nodes[k];
           for (int i = 0; i < 2; ++i) weights[k][i][lane] = real ? element.weights[k][i] : 0;
-        }
-        for (int k = 0; k < 6; ++k) {
-          const int row = vertexOfNode[element.nodes[rows[k]]], column = vertexOfNode[element.nodes[columns[k]]];
-          group.place[k][lane] = -1;
-          if (!real || row < 0 || column < 0) continue;
-          const math::BlockCholesky::Place place = cholesky.place(row, column);
-          group.place[k][lane] = place.offset;
-          group.stride[k][lane] = place.stride;
-          group.transposed[k][lane] = place.transposed;
         }
       }
       for (int k = 0; k < 3; ++k)
@@ -94,6 +84,22 @@ ConeElements::ConeElements(const ConeConstraints& constraints, const std::vector
     boundCount_ += static_cast<int>(members[b].size()) *
                    static_cast<int>(2 * bounds_[b].scalings.size() + bounds_[b].directions.size());
   }
+  locate(vertexOfNode, cholesky);
+}
+
+void ConeElements::locate(const std::vector<int>& vertexOfNode, const math::BlockCholesky& cholesky) {
+  constexpr int rows[6] = {0, 1, 2, 1, 2, 2}, columns[6] = {0, 1, 2, 0, 0, 1};
+  for (Group& group : groups_)
+    for (int k = 0; k < 6; ++k)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int row = vertexOfNode[group.nodes[rows[k]][lane]], column = vertexOfNode[group.nodes[columns[k]][lane]];
+        group.place[k][lane] = -1;
+        if (group.element[lane] < 0 || row < 0 || column < 0) continue;
+        const math::BlockCholesky::Place place = cholesky.place(row, column);
+        group.place[k][lane] = place.offset;
+        group.stride[k][lane] = place.stride;
+        group.transposed[k][lane] = place.transposed;
+      }
 }
 
 MapPacket ConeElements::mapOf(const Group& group, const Positions& x) const {

@@ -26,6 +26,9 @@ class ConeElements {
   ConeElements(const ConeConstraints& constraints, const std::vector<int>& vertexOfNode,
                const math::BlockCholesky& cholesky);
 
+  /// Says where the blocks stand in another factorisation; what the bounds' state is stays.
+  void locate(const std::vector<int>& vertexOfNode, const math::BlockCholesky& cholesky);
+
   int boundCount() const { return boundCount_; }  ///< the sum of their orders: 2 an ellipse, 1 a direction
 
   /// Adds Σ w (stiffness I) w to `cholesky`, and its product with x to `forces`.
