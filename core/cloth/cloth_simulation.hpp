@@ -57,6 +57,10 @@ struct StepRecord {
   /// converged; iterationLimit: done, but not as exactly as asked; else the state is still that before the step.
   base::TerminationType termination = base::TerminationType::converged;
   std::string message;
+
+  bool done() const {
+    return termination == base::TerminationType::converged || termination == base::TerminationType::iterationLimit;
+  }
 };
 
 using LimiterFactory = std::function<std::unique_ptr<StrainLimiter>(const SheetCones&)>;
@@ -97,6 +101,7 @@ class ClothSimulation {
   ClothSimulation(ClothSimulation&&) noexcept;
 
   const ClothProblem& problem() const { return *problem_; }
+  const std::shared_ptr<const ClothProblem>& sharedProblem() const { return problem_; }
   const SteppingOptions& options() const { return options_; }
   const ClothState& state() const { return state_; }
   /// Another start; forgets what BDF-2 knows. Throws base::InputError for wrong sizes or numbers that are not finite.

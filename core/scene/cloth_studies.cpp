@@ -8,7 +8,7 @@
 #include "core/cloth/cloth_drape.hpp"
 #include "core/scene/candidate_file.hpp"
 #include "core/scene/cloth_builder.hpp"
-#include "core/scene/cloth_result.hpp"
+#include "core/scene/cloth_recording.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
@@ -18,9 +18,6 @@ namespace pliant::scene {
 using base::TerminationType;
 
 namespace {
-
-/// Between two snapshots for whoever watches [s].
-constexpr double observationInterval = 0.05;
 
 cloth::ProjectionOptions projectionOptions(const Json& options) {
   cloth::ProjectionOptions projection;
@@ -44,80 +41,15 @@ cloth::SteppingScheme schemeNamed(const std::string& name) {
   return name == "second_order_reflect" ? secondOrderReflect : stepAndReflect;
 }
 
-/// A result that grows, and snapshots of it now and then; frames are shared.
-class GrowingResult {
- public:
-  GrowingResult(std::shared_ptr<const cloth::ClothProblem> problem, Provenance provenance,
-                const ResultObserver& observe)
-      : observe_(observe) {
-    result_->problem = std::move(problem);
-    result_->provenance = std::move(provenance);
-  }
-
-  void addFrame(double time, const Eigen::Matrix3Xd& positions, double bodiesAt,
-                const solvers::ConeSolution* solution) {
-    const cloth::LimitedSheet& sheet = result_->problem->sheet;
-    auto frame = std::make_shared<ClothFrame>();
-    frame->time = time;
-    frame->positions = positions;
-    frame->bodyPoints = cloth::bodyPointsAt(*result_->problem, bodiesAt);
-    frame->stretchRatios = cloth::stretchRatios(sheet, positions);
-    frame->limitForces.setZero(static_cast<Eigen::Index>(sheet.triangles.size()));
-    Eigen::Index element = 0;
-    for (std::size_t t = 0; t < sheet.triangles.size(); ++t)
-      if (sheet.triangles[t].limit >= 0 && solution && element < solution->multipliers.cols()) {
-        frame->limitForces[static_cast<Eigen::Index>(t)] = solution->multipliers.col(element).head<2>().sum();
-        ++element;
-      }
-    result_->frames.push_back(std::move(frame));
-  }
-
-  void addStep(const cloth::StepRecord& step, double time, double residual) {
-    ClothStepRecord record;
-    record.time = time;
-    record.energies = step.energies;
-    record.violation = step.violation;
-    record.relativeGap = step.projection ? step.projection->relativeGap() : 0;
-    record.residual = residual;
-    record.newtonIterations = step.newtonIterations;
-    record.projectionIterations = step.projectionIterations;
-    record.newtonSeconds = step.newtonSeconds;
-    record.projectionSeconds = step.projectionSeconds;
-    record.smallestGap = step.smallestGap;
-    record.converged = step.termination == TerminationType::converged;
-    result_->steps.push_back(record);
-    if (step.projection) {
-      result_->lastProjection = step.projection->report;
-      result_->projection = step.projection;
-    }
-  }
-
-  void observe() {
-    if (!observe_ || sinceObserved_.seconds() < observationInterval) return;
-    result_->seconds = watch_.seconds();
-    observe_(std::make_shared<const ClothResult>(*result_));
-    sinceObserved_ = base::Stopwatch();
-  }
-
-  std::shared_ptr<const Result> finish(TerminationType termination, const std::string& message) {
-    result_->termination = termination;
-    result_->message = message;
-    result_->seconds = watch_.seconds();
-    if (observe_) observe_(result_);
-    return result_;
-  }
-
-  ClothResult& result() { return *result_; }
-
- private:
-  std::shared_ptr<ClothResult> result_ = std::make_shared<ClothResult>();
-  ResultObserver observe_;
-  base::Stopwatch watch_, sinceObserved_;
-};
-
-/// A step that leads nowhere ends a study; one that is only inexact does not.
-bool endsTheStudy(TerminationType termination) {
-  return termination != TerminationType::converged && termination != TerminationType::iterationLimit;
+cloth::SteppingOptions steppingOptions(const Json& options) {
+  cloth::SteppingOptions stepping;
+  stepping.scheme = schemeNamed(options["scheme"]);
+  stepping.timeStep = options["time_step"];
+  stepping.limitMethod = options["limit_method"];
+  stepping.norm = normOf(options);
+  stepping.projection = projectionOptions(options);
+  stepping.newton.tolerance = options["newton_tolerance"];
+  return stepping;
 }
 
 class ClothStudy : public Study {
@@ -148,12 +80,12 @@ class ClothMotionStudy final : public ClothStudy {
  public:
   ClothMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
       : ClothStudy(scene, std::move(model), options) {
-    check(scene, [&] { cloth::ClothSimulation(problem_, steppingOptions()); });
+    check(scene, [&] { cloth::ClothSimulation(problem_, steppingOptions(options_)); });
   }
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    GrowingResult growing(problem_, provenance_, observe);
-    cloth::ClothSimulation simulation(problem_, steppingOptions());
+    ClothRecording growing(problem_, provenance_, observe);
+    cloth::ClothSimulation simulation(problem_, steppingOptions(options_));
     growing.addFrame(0, simulation.state().positions, 0, nullptr);
     const double timeStep = options_["time_step"];
     const auto count = static_cast<long>(std::llround(options_["duration"].get<double>() / timeStep));
@@ -161,7 +93,7 @@ class ClothMotionStudy final : public ClothStudy {
     for (long i = 1; i <= count; ++i) {
       if (context.cancelRequested()) return growing.finish(TerminationType::cancelled, "The motion was cancelled.");
       const cloth::StepRecord record = simulation.step(context);
-      if (endsTheStudy(record.termination))
+      if (!record.done())
         return growing.finish(
             record.termination,
             "At " + base::formatQuantity(simulation.state().time, base::dimensions::time) + ": " + record.message);
@@ -173,18 +105,6 @@ class ClothMotionStudy final : public ClothStudy {
     }
     return growing.finish(TerminationType::converged, "");
   }
-
- private:
-  cloth::SteppingOptions steppingOptions() const {
-    cloth::SteppingOptions stepping;
-    stepping.scheme = schemeNamed(options_["scheme"]);
-    stepping.timeStep = options_["time_step"];
-    stepping.limitMethod = options_["limit_method"];
-    stepping.norm = normOf(options_);
-    stepping.projection = projectionOptions(options_);
-    stepping.newton.tolerance = options_["newton_tolerance"];
-    return stepping;
-  }
 };
 
 class ClothDrapeStudy final : public ClothStudy {
@@ -195,7 +115,7 @@ class ClothDrapeStudy final : public ClothStudy {
   }
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    GrowingResult growing(problem_, provenance_, observe);
+    ClothRecording growing(problem_, provenance_, observe);
     const cloth::DrapeOptions drapeBy = drapeOptions();
     cloth::ClothDrape drape(problem_, drapeBy);
     growing.addFrame(0, drape.positions(), drapeBy.time, nullptr);
@@ -204,7 +124,7 @@ class ClothDrapeStudy final : public ClothStudy {
     for (int i = 1; i <= most; ++i) {
       if (context.cancelRequested()) return growing.finish(TerminationType::cancelled, "The drape was cancelled.");
       const cloth::DrapeRecord record = drape.step(context);
-      if (endsTheStudy(record.step.termination)) return growing.finish(record.step.termination, record.step.message);
+      if (!record.step.done()) return growing.finish(record.step.termination, record.step.message);
       growing.addStep(record.step, i, record.residual);
       if (i % every == 0 || drape.converged() || i == most)
         growing.addFrame(i, drape.positions(), drapeBy.time, record.step.projection.get());
@@ -247,7 +167,7 @@ class ProjectionStudy final : public ClothStudy {
   }
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    GrowingResult growing(problem_, provenance_, observe);
+    ClothRecording growing(problem_, provenance_, observe);
     const cloth::SheetCones cones = cloth::sheetCones(problem_->sheet, normOf(options_));
     const auto limiter = cloth::makeStrainLimiter(
         options_["limit_method"].get<std::string>(), cones.constraints, projectionOptions(options_));
@@ -273,6 +193,16 @@ class ProjectionStudy final : public ClothStudy {
 };
 
 }  // namespace
+
+ClothMotionSetup clothMotionSetup(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                  const std::string& study) {
+  for (const Json& options : scene.normalized()["studies"])
+    if (options["name"] == study && options["type"] == "cloth_motion") {
+      auto problem = buildClothProblem(scene, std::move(model));
+      return {std::move(problem), steppingOptions(options), provenanceOf(scene, options)};
+    }
+  throw base::InputError(scene.name(), "There is no study of the type cloth_motion named " + quote(study) + ".");
+}
 
 std::unique_ptr<Study> makeClothMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                             const Json& options) {

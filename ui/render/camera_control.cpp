@@ -34,6 +34,13 @@ Direction direction(AxisView view) {
   return {{0.45, -0.75, 0.5}, {0, 0, 1}};
 }
 
+std::optional<Eigen::Vector2d> seenAt(const Eigen::Matrix4d& projection, const int* size,
+                                      const Eigen::Vector3d& point) {
+  const Eigen::Vector4d clip = projection * point.homogeneous();
+  if (clip.w() <= 0) return std::nullopt;
+  return Eigen::Vector2d(0.5 * (1.0 + clip.x() / clip.w()) * size[0], 0.5 * (1.0 + clip.y() / clip.w()) * size[1]);
+}
+
 }  // namespace
 
 CameraControl::CameraControl(vtkRenderer* renderer) : renderer_(renderer), reach_(Points::Zero(3, 1)) {
@@ -137,18 +144,29 @@ void CameraControl::zoom(double factor, double x, double y) {
 }
 
 std::optional<Eigen::Vector2d> CameraControl::pixelOf(const Eigen::Vector3d& point) const {
-  const Eigen::Vector4d clip = projection() * point.homogeneous();
-  if (clip.w() <= 0) return std::nullopt;
+  return seenAt(projection(), renderer_->GetSize(), point);
+}
+
+std::optional<Eigen::Vector3d> CameraControl::pointBeside(const Eigen::Vector3d& point, double x, double y) const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
   const int* size = renderer_->GetSize();
-  return Eigen::Vector2d(0.5 * (1.0 + clip.x() / clip.w()) * size[0], 0.5 * (1.0 + clip.y() / clip.w()) * size[1]);
+  const Eigen::Vector3d forward = vectorOf(camera->GetDirectionOfProjection()).normalized();
+  const Eigen::Vector3d eye = vectorOf(camera->GetPosition());
+  const double depth = (point - eye).dot(forward);
+  if (size[1] <= 0 || depth <= 0) return std::nullopt;
+  const double pixel = 2.0 * depth * std::tan(0.5 * viewAngle * std::numbers::pi / 180.0) / size[1];
+  const Eigen::Vector3d up = vectorOf(camera->GetViewUp()).normalized();
+  const Eigen::Vector3d right = forward.cross(up).normalized();
+  return eye + depth * forward + pixel * ((x - 0.5 * size[0]) * right + (0.5 * size[1] - y) * up);
 }
 
 std::optional<int> CameraControl::nearestPoint(const Points& points, double x, double y, double radius) const {
   const Eigen::Vector2d place(x, renderer_->GetSize()[1] - y);
   std::optional<int> nearest;
   double least = radius;
+  const Eigen::Matrix4d seen = projection();
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const std::optional<Eigen::Vector2d> pixel = pixelOf(points.col(i));
+    const std::optional<Eigen::Vector2d> pixel = seenAt(seen, renderer_->GetSize(), points.col(i));
     if (!pixel || (*pixel - place).norm() > least) continue;
     least = (*pixel - place).norm();
     nearest = static_cast<int>(i);

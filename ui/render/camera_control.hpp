@@ -28,6 +28,8 @@ class CameraControl {
   void zoom(double factor, double x, double y);
   /// Where a point is seen, from the bottom left of the window; none if it is behind the camera.
   std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3d& point) const;
+  /// What is seen at the pixel (x, y) in the plane through `point` that faces the camera; none if it is behind it.
+  std::optional<Eigen::Vector3d> pointBeside(const Eigen::Vector3d& point, double x, double y) const;
   std::optional<int> nearestPoint(const Points& points, double x, double y, double radius) const;
 
  private:

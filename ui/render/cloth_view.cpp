@@ -18,7 +18,7 @@
 namespace pliant::render {
 namespace {
 
-constexpr double pinSize = 0.008;  // of the model's extent
+constexpr double pinSize = 0.008, handSize = 0.012;  // of the model's extent
 constexpr std::size_t mostDirections = 400;
 constexpr double violationShown = 0.02;  // of the range below the limit: less is not worth another scale
 
@@ -39,6 +39,8 @@ struct ClothView::Parts {
   BodyFigure bodies;
   LinePrimitive directions{1.5};
   MarkerPrimitive pins{MarkerPrimitive::Shape::cube};
+  MarkerPrimitive handMarkers{MarkerPrimitive::Shape::sphere};
+  LinePrimitive handLines{2.0};
   Ring selectionRing;
 
   std::shared_ptr<const cloth::ClothProblem> problem;
@@ -52,6 +54,7 @@ struct ClothView::Parts {
   ClothField field = ClothField::stretchRatio;
   std::optional<int> selected;
   Points positions;
+  std::vector<Hand> hands;
 
   explicit Parts(Stage& around) : stage(around) {
     vtkRenderer* renderer = stage.renderer();
@@ -60,6 +63,8 @@ struct ClothView::Parts {
     bodies.addTo(renderer);
     renderer->AddActor(directions.actor());
     renderer->AddActor(pins.actor());
+    renderer->AddActor(handMarkers.actor());
+    renderer->AddActor(handLines.actor());
     selectionRing.addTo(renderer);
     directions.actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -6);
     stage.legend().setTable(table);
@@ -70,6 +75,7 @@ struct ClothView::Parts {
     stage.onPixelRatio = [this] {
       figure.setPixelRatio(stage.pixelRatio());
       directions.setPixelRatio(stage.pixelRatio());
+      handLines.setPixelRatio(stage.pixelRatio());
       selectionRing.setPixelRatio(stage.pixelRatio());
     };
     stage.onField = [this] { showField(); };
@@ -90,6 +96,7 @@ struct ClothView::Parts {
     bodies.setColor(shown(colors.spring));
     setColor(directions.actor(), {0.95, 0.95, 0.95});  // on viridis, in every theme
     setColor(pins.actor(), shown(colors.driven));
+    for (vtkActor* actor : {handMarkers.actor(), handLines.actor()}) setColor(actor, colors.prediction);
     selectionRing.setColors(colors.text, colors.background);
     stage.setNotice(stale && shownFrame() ? "inputs have changed since this was solved" : "", colors.text);
     showField();
@@ -149,6 +156,7 @@ struct ClothView::Parts {
     sheet.setPoints(positions);
     figure.setPose(layout.pose(coordinates));
     showPins(shown ? shown->time : 0);
+    showHands();
     Points bodyPoints(3, 0);
     for (const cloth::Body& body : problem->bodies) {
       bodyPoints.conservativeResize(3, bodyPoints.cols() + body.points.cols());
@@ -165,6 +173,26 @@ struct ClothView::Parts {
       if (!pin.release || time < *pin.release) nodes.insert(nodes.end(), pin.nodes.begin(), pin.nodes.end());
     pins.setNodes(nodes, std::vector<double>(nodes.size(), pinSize * layout.size));
     pins.setPoints(positions);
+  }
+
+  void showHands() {
+    std::vector<int> nodes;
+    std::vector<std::array<int, 2>> lines;
+    std::erase_if(hands, [this](const Hand& hand) { return hand.node < 0 || hand.node >= positions.cols(); });
+    Points ends(3, 2 * static_cast<Eigen::Index>(hands.size()));
+    for (const Hand& hand : hands) {
+      const auto first = 2 * static_cast<int>(nodes.size());
+      ends.col(first) = positions.col(hand.node);
+      ends.col(first + 1) = hand.place;
+      lines.push_back({first, first + 1});
+      nodes.push_back(hand.node);
+    }
+    handMarkers.setNodes(nodes, std::vector<double>(nodes.size(), handSize * layout.size));
+    handMarkers.setPoints(positions);
+    vtkNew<vtkPoints> points;
+    for (const auto& end : ends.colwise()) points->InsertNextPoint(end.data());
+    handLines.setPoints(points);
+    handLines.setTopology(lines);
   }
 
   void showDirections() {
@@ -227,6 +255,7 @@ void ClothView::setProblem(std::shared_ptr<const cloth::ClothProblem> problem) {
   p.frame = -1;
   p.selected.reset();
   p.stale = false;
+  p.hands.clear();
   p.showProblem();
   p.applyTheme();
 }
@@ -282,6 +311,17 @@ void ClothView::setSelectedNode(std::optional<int> node) {
 }
 
 std::optional<int> ClothView::selectedNode() const { return parts_->selected; }
+
+void ClothView::setHands(std::vector<Hand> hands) {
+  parts_->hands = std::move(hands);
+  parts_->showHands();
+}
+
+Eigen::Vector3d ClothView::nodePosition(int node) const { return parts_->positions.col(node); }
+
+std::optional<Eigen::Vector3d> ClothView::pointBeside(const Eigen::Vector3d& point, double x, double y) const {
+  return stage().camera().pointBeside(point, x, y);
+}
 
 std::optional<int> ClothView::pickNode(double x, double y, double radius) const {
   if (!parts_->problem) return std::nullopt;

@@ -14,6 +14,12 @@ enum class ClothField {
   limitForce     ///< what the limits press with
 };
 
+/// A node that is held by hand, and where the hand is [m].
+struct Hand {
+  int node = -1;
+  Eigen::Vector3d place;
+};
+
 /// A cloth with its bodies and pins, at one of its frames. Frames may be added while it is seen. The sheet is shaded
 /// smoothly from both sides and coloured by how near it is to its limits.
 class ClothView final : public View {
@@ -36,6 +42,12 @@ class ClothView final : public View {
   void setDirectionsVisible(bool visible);
   void setSelectedNode(std::optional<int> node);
   std::optional<int> selectedNode() const;
+  /// Marks nodes that hands hold, each with a line to its hand where that is elsewhere.
+  void setHands(std::vector<Hand> hands);
+  /// Where a node is drawn [m].
+  Eigen::Vector3d nodePosition(int node) const;
+  /// What is seen at the pixel (x, y) (from the top left) in the plane through `point` that faces the camera.
+  std::optional<Eigen::Vector3d> pointBeside(const Eigen::Vector3d& point, double x, double y) const;
 
   std::optional<int> pickNode(double x, double y, double radius) const override;
 

@@ -36,6 +36,7 @@ ClothLink::ClothLink(document::Document& document, Viewport& viewport, panels::L
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     study_.clear();
     result_.reset();
+    live_ = false;
     node_ = -1;
     viewport_.setCloth(nullptr);
   });
@@ -74,7 +75,14 @@ void ClothLink::showStudy(const std::string& name) {
   refresh();
 }
 
+void ClothLink::setLive(bool live) {
+  live_ = live;
+  result_.reset();
+  if (!live) refresh();
+}
+
 void ClothLink::refresh() {
+  if (live_) return;
   const document::StudyState* study = study_.empty() ? nullptr : document_.study(study_);
   const bool any = study && study->result && study->result->kind() == "cloth";
   const auto result = any ? std::static_pointer_cast<const scene::ClothResult>(study->result) : nullptr;
@@ -104,13 +112,13 @@ void ClothLink::refresh() {
 
 /// The largest stretches of the frame on show under the limit on show.
 void ClothLink::refreshReached() {
-  if (result_ && !limits_.isVisible()) return;  // it asks again when it is shown
   const int frame = viewport_.showsCloth() ? viewport_.clothView().frame() : -1;
-  if (!result_ || frame < 0 || frame >= static_cast<int>(result_->frames.size())) {
+  if (frame >= 0 && !limits_.isVisible()) return;  // it asks again when it is shown
+  if (frame < 0 || frame >= static_cast<int>(viewport_.clothFrames().size())) {
     limits_.setReached({}, {});
     return;
   }
-  const cloth::LimitedSheet& sheet = result_->problem->sheet;
+  const cloth::LimitedSheet& sheet = viewport_.clothProblem()->sheet;
   std::vector<int> triangles, picked;
   for (std::size_t i = 0; i < sheet.triangles.size(); ++i) {
     const cloth::SheetTriangle& triangle = sheet.triangles[i];
@@ -124,7 +132,7 @@ void ClothLink::refreshReached() {
     return;
   }
   const QString name = picked.empty() ? tr("the worst of all triangles") : tr("the triangles of node %1").arg(node_);
-  limits_.setReached(cloth::reachedStretch(sheet, result_->frames[static_cast<std::size_t>(frame)]->positions,
+  limits_.setReached(cloth::reachedStretch(sheet, viewport_.clothFrames()[static_cast<std::size_t>(frame)]->positions,
                                            reachedCount, picked.empty() ? triangles : picked),
                      name);
 }
@@ -133,6 +141,7 @@ QString ClothLink::caption() const {
   QString text = document_.title();
   if (study_.empty() || !result_) return text;
   text += '\n' + QString::fromStdString(study_);
+  if (!result_->message.empty()) text += ",  " + QString::fromStdString(result_->message);
   if (!result_->steps.empty()) {
     double violation = 0;
     for (const scene::ClothStepRecord& step : result_->steps) violation = std::max(violation, step.violation);

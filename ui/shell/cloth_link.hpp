@@ -31,6 +31,8 @@ class ClothLink final : public QObject {
   /// Empty: none.
   const std::string& study() const { return study_; }
   void showStudy(const std::string& name);
+  /// A live cloth has the viewport, and what studies find is not shown.
+  void setLive(bool live);
 
  private:
   void follow(const std::string& name);
@@ -47,6 +49,7 @@ class ClothLink final : public QObject {
   QTimer reachedTimer_;  ///< a frame that is played past is not worth the work
   int node_ = -1;        ///< picked
   bool growing_ = false;
+  bool live_ = false;
 };
 
 /// Whether the scene has a cloth: limits of stretch, or a study of one.

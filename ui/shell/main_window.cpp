@@ -34,6 +34,8 @@
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/job_status.hpp"
+#include "ui/shell/live_bar.hpp"
+#include "ui/shell/live_link.hpp"
 #include "ui/shell/shipped_files.hpp"
 #include "ui/shell/viewport_link.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -49,6 +51,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent)
       remember_(remember),
       studies_(document_, studyJobs_),
       session_(document_, quickJobs_, studies_),
+      live_(document_),
       recent_(remember),
       actions_(this) {
   setAcceptDrops(true);
@@ -59,6 +62,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent)
   makeActions();
   makeMenus();
   makeToolBar();
+  makeLiveBar();
   palette_ = new CommandPalette(this);
   connectParts();
   resize(sizeHint());
@@ -77,6 +81,7 @@ MainWindow::~MainWindow() {
   document_.disconnect();
   document_.undoStack().disconnect();
   session_.disconnect();
+  live_.disconnect();
   studyJobs_.disconnect(status_);
   quickJobs_.disconnect(status_);
   sceneJobs_.disconnect(status_);
@@ -94,7 +99,12 @@ void MainWindow::buildCentre() {
   viewport_ = new viewport::Viewport;
   pages_ = new QStackedWidget;
   pages_->addWidget(gallery_);
-  pages_->addWidget(viewport_);
+  auto* stage = new QWidget;
+  stage_ = new QVBoxLayout(stage);
+  stage_->setContentsMargins(0, 0, 0, 0);
+  stage_->setSpacing(0);
+  stage_->addWidget(viewport_, 1);
+  pages_->addWidget(stage);
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -162,7 +172,8 @@ void MainWindow::buildStatusBar() {
 
 void MainWindow::connectParts() {
   auto* link = new ViewportLink(document_, session_, *viewport_, this);
-  new ClothLink(document_, *viewport_, *limits_, *energies_, this);
+  auto* clothLink = new ClothLink(document_, *viewport_, *limits_, *energies_, this);
+  new LiveLink(document_, live_, *viewport_, *clothLink, this);
   connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
   connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
   connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);
@@ -200,6 +211,7 @@ void MainWindow::connectParts() {
   for (auto changed : {&jobs::MotionSession::shownChanged, &jobs::MotionSession::predictionChanged})
     connect(&session_, changed, this, &MainWindow::refreshActions);
   connect(&session_, &jobs::MotionSession::busyChanged, this, &MainWindow::refreshActions);
+  connect(viewport_, &viewport::Viewport::clothChanged, this, &MainWindow::refreshActions);
   connect(&session_, &jobs::MotionSession::updated, this, &MainWindow::reportUpdate);
 }
 
@@ -278,7 +290,7 @@ void MainWindow::keepUnsaved() {
 }
 
 void MainWindow::showScene() {
-  pages_->setCurrentWidget(viewport_);
+  pages_->setCurrentWidget(viewport_->parentWidget());
   setDocksVisible(true);
   messages_->dismiss();
   viewport_->setFocus();

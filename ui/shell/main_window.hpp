@@ -4,6 +4,7 @@
 
 #include "ui/document/document.hpp"
 #include "ui/document/recent_files.hpp"
+#include "ui/jobs/cloth_session.hpp"
 #include "ui/jobs/job_runner.hpp"
 #include "ui/jobs/motion_session.hpp"
 #include "ui/jobs/study_runner.hpp"
@@ -14,6 +15,7 @@ class QLabel;
 class QMenu;
 class QStackedWidget;
 class QToolButton;
+class QVBoxLayout;
 
 namespace pliant::panels {
 class EnergyPanel;
@@ -36,6 +38,7 @@ namespace pliant::shell {
 class CommandPalette;
 class Gallery;
 class JobStatus;
+class LiveBar;
 
 /// Puts document, jobs, viewport, plot and panels together. Without `remember` nothing is read from or written to the
 /// user's settings.
@@ -51,6 +54,7 @@ class MainWindow final : public QMainWindow {
 
   document::Document& document() { return document_; }
   jobs::MotionSession& session() { return session_; }
+  jobs::ClothSession& live() { return live_; }
   ActionRegistry& actions() { return actions_; }
   viewport::Viewport& viewport() { return *viewport_; }
   panels::ParameterPanel& parameters() { return *parameters_; }
@@ -76,6 +80,10 @@ class MainWindow final : public QMainWindow {
   void connectParts();
   void makeActions();
   void makeClothActions();
+  void makeLiveActions();
+  void makeLiveBar();
+  void openLive();
+  void showPlaying(bool playing);
   void makeMenus();
   void makeToolBar();
   void fillStudyMenu(QMenu* menu);
@@ -111,12 +119,14 @@ class MainWindow final : public QMainWindow {
   jobs::JobRunner sceneJobs_;  ///< reads scenes and builds models, so that neither waits for a solve
   jobs::StudyRunner studies_;
   jobs::MotionSession session_;
+  jobs::ClothSession live_;
   document::RecentFiles recent_;
   ActionRegistry actions_;
   Theme theme_ = Theme::system;
 
   QStackedWidget* pages_ = nullptr;
   Gallery* gallery_ = nullptr;
+  QVBoxLayout* stage_ = nullptr;  ///< the viewport and what stands below it
   viewport::Viewport* viewport_ = nullptr;
   panels::MessageBar* messages_ = nullptr;
   panels::SceneTree* tree_ = nullptr;
@@ -127,6 +137,7 @@ class MainWindow final : public QMainWindow {
   panels::LimitPanel* limits_ = nullptr;
   panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;
+  LiveBar* liveBar_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;
   QToolButton* warnings_ = nullptr;

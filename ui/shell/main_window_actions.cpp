@@ -19,6 +19,7 @@
 #include "ui/panels/scene_tree.hpp"
 #include "ui/shell/command_palette.hpp"
 #include "ui/shell/gallery.hpp"
+#include "ui/shell/live_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/playback_bar.hpp"
 #include "ui/shell/shipped_files.hpp"
@@ -50,7 +51,7 @@ void MainWindow::makeActions() {
       tr("Find actions, parameters, properties and scenes"), [this] { openPalette(); });
 
   add("view.play", tr("Play"), "play", QKeySequence(Qt::Key_Space), tr("Play or pause the motion"),
-      [this] { viewport_->togglePlaying(); });
+      [this] { live_.isOpen() ? live_.setPlaying(!live_.isPlaying()) : viewport_->togglePlaying(); });
   add("view.fit", tr("&Fit"), "fit", QKeySequence(Qt::Key_F), tr("Show all of the motion"),
       [this] { viewport_->fit(); });
   const std::vector<std::tuple<const char*, QString, int, AxisView>> views{
@@ -87,6 +88,7 @@ void MainWindow::makeActions() {
   }
 
   makeClothActions();
+  makeLiveActions();
   add("model.reset", tr("&Reset All Parameters"), "reset", {}, tr("Set all parameters as they are in the file"),
       [this] { resetParameters(); });
   add("model.nextProbe", tr("Next &Probe"), "", QKeySequence(Qt::Key_P), tr("Select the next probe"),
@@ -107,11 +109,13 @@ void MainWindow::makeActions() {
                .arg(PLIANT_VERSION));
   });
   connect(&document_.undoStack(), &QUndoStack::indexChanged, this, &MainWindow::refreshActions);
-  connect(viewport_, &viewport::Viewport::playingChanged, this, [this](bool playing) {
-    QAction* play = actions_.find(QStringLiteral("view.play"));
-    play->setIcon(panels::icon(playing ? QStringLiteral("pause") : QStringLiteral("play")));
-    play->setText(playing ? tr("Pause") : tr("Play"));
-  });
+  connect(viewport_, &viewport::Viewport::playingChanged, this, &MainWindow::showPlaying);
+}
+
+void MainWindow::showPlaying(bool playing) {
+  QAction* play = actions_.find(QStringLiteral("view.play"));
+  play->setIcon(panels::icon(playing ? QStringLiteral("pause") : QStringLiteral("play")));
+  play->setText(playing ? tr("Pause") : tr("Play"));
 }
 
 void MainWindow::makeMenus() {
@@ -145,6 +149,9 @@ void MainWindow::makeMenus() {
 void MainWindow::fillStudyMenu(QMenu* menu) {
   menu->clear();
   for (const char* id : {"study.run", "study.update", "study.cancel"})
+    menu->addAction(actions_.find(QLatin1String(id)));
+  menu->addSeparator();
+  for (const char* id : {"live.open", "live.step", "live.reset", "live.record"})
     menu->addAction(actions_.find(QLatin1String(id)));
   if (document_.studies().empty()) return;
   menu->addSeparator();
@@ -215,7 +222,9 @@ void MainWindow::refreshActions() {
   const bool editing = document_.isEditing();
   for (const char* id : {"file.export", "view.fit", "model.nextProbe"}) enable(id, open);
   for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
-  enable("view.play", session_.shown().has_value());
+  enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
+  enable("live.open", liveBar_ && !liveBar_->study().empty());
+  for (const char* id : {"live.step", "live.reset", "live.record"}) enable(id, live_.isOpen());
   enable("study.run", open && !document_.studies().empty() && !busy && !editing);
   enable("study.update", open && session_.isStale() && !busy && !editing);
   enable("study.cancel", busy || editing);

@@ -2,11 +2,13 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QVBoxLayout>
 #include <algorithm>
 
 #include "core/base/error.hpp"
 #include "ui/shell/cloth_link.hpp"
 #include "ui/shell/exporter.hpp"
+#include "ui/shell/live_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -36,6 +38,56 @@ void MainWindow::makeClothActions() {
                 {},
                 tr("Export all frames of a cloth as an animation or as numbered meshes")},
                [this] { exportFrames(); });
+}
+
+void MainWindow::makeLiveActions() {
+  QAction* open =
+      actions_.add({QStringLiteral("live.open"), tr("&Live"), QStringLiteral("hand"), QKeySequence(Qt::Key_L),
+                    tr("Let the cloth move by itself and pull its nodes with the mouse; Ctrl keeps a node "
+                       "where you let it go, or frees it")},
+                   [this] { openLive(); });
+  open->setCheckable(true);
+  actions_.add({QStringLiteral("live.step"), tr("Single S&tep"), QStringLiteral("step"), QKeySequence(Qt::Key_Period),
+                tr("One step of the live cloth")},
+               [this] { live_.step(); });
+  actions_.add({QStringLiteral("live.reset"),
+                tr("Begin &Again"),
+                QStringLiteral("reset"),
+                {},
+                tr("The live cloth begins again at rest, without hands")},
+               [this] { live_.reset(); });
+  QAction* record = actions_.add({QStringLiteral("live.record"),
+                                  tr("Rec&ord"),
+                                  QStringLiteral("record"),
+                                  {},
+                                  tr("Keep what the live cloth does as the result of its study")},
+                                 [this] { live_.setRecording(!live_.isRecording()); });
+  record->setCheckable(true);
+  connect(&live_, &jobs::ClothSession::openChanged, this, [this, open](bool isOpen) {
+    open->setChecked(isOpen);
+    refreshActions();
+  });
+  connect(&live_, &jobs::ClothSession::recordingChanged, record, &QAction::setChecked);
+  connect(&live_, &jobs::ClothSession::playingChanged, this, &MainWindow::showPlaying);
+}
+
+void MainWindow::makeLiveBar() {
+  liveBar_ = new LiveBar(document_, live_, actions_);
+  stage_->addWidget(liveBar_);
+  connect(liveBar_, &LiveBar::studyChosen, this, [this] {
+    if (!live_.isOpen()) return;
+    live_.close();
+    openLive();
+  });
+}
+
+void MainWindow::openLive() {
+  if (live_.isOpen()) {
+    live_.close();
+    return;
+  }
+  live_.open(liveBar_->study());
+  live_.setPlaying(true);
 }
 
 /// The frames are written in the background; one sentence says how many there are.

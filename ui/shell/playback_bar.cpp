@@ -63,6 +63,8 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
   connect(&viewport_, &viewport::Viewport::timeChanged, this, &PlaybackBar::showTime);
   connect(&viewport_, &viewport::Viewport::clothChanged, this, [this] {
     if (ofCloth_ != viewport_.showsCloth()) fillSpeeds();
+    scrub_->setEnabled(!viewport_.isLive());
+    speed_->setEnabled(!viewport_.isLive());
     if (ofCloth_)
       showTime(viewport_.time());
     else

@@ -137,7 +137,7 @@ QSize Viewport::sizeHint() const { return {720, 480}; }
 QSize Viewport::minimumSizeHint() const { return {160, 120}; }
 
 void Viewport::play() {
-  if (isPlaying()) return;
+  if (isPlaying() || live_) return;
   clock_.start();
   timer_.start();
   Q_EMIT playingChanged(true);
@@ -184,14 +184,22 @@ void Viewport::changeEvent(QEvent* event) {
 void Viewport::mousePressEvent(QMouseEvent* event) {
   pressPosition_ = lastPosition_ = event->position();
   dragged_ = false;
+  if (live_ && event->button() == Qt::LeftButton) beginPull(*event);
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
-  const bool left = event->buttons() & Qt::LeftButton;
+  const bool turns = event->buttons() & (Qt::LeftButton | Qt::RightButton);
   const bool middle = event->buttons() & Qt::MiddleButton;
-  if (!left && !middle) return;
+  if (!turns && !middle) {
+    if (live_) refreshCursor(event->position());
+    return;
+  }
   if (!dragged_ && (event->position() - pressPosition_).manhattanLength() < QApplication::startDragDistance()) return;
   dragged_ = true;
+  if (pulled_) {
+    movePull(event->position());
+    return;
+  }
   framed_ = false;
   const QPointF moved = event->position() - lastPosition_;
   lastPosition_ = event->position();
@@ -204,10 +212,14 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
-  if (dragged_ || event->button() != Qt::LeftButton) return;
+  if (event->button() != Qt::LeftButton) return;
+  if (pulled_) endPull(event->modifiers() & Qt::ControlModifier);
+  if (!dragged_) Q_EMIT nodePicked(nodeAt(event->position()).value_or(-1));
+}
+
+std::optional<int> Viewport::nodeAt(const QPointF& place) const {
   const double ratio = devicePixelRatioF();
-  const QPointF place = event->position() * ratio;
-  Q_EMIT nodePicked(view_->pickNode(place.x(), place.y(), pickRadius * ratio).value_or(-1));
+  return view_->pickNode(place.x() * ratio, place.y() * ratio, pickRadius * ratio);
 }
 
 void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -228,6 +240,12 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   using render::AxisView;
   switch (event->key()) {
     case Qt::Key_Space: togglePlaying(); break;
+    case Qt::Key_Escape:
+      if (pulled_)
+        endPull(false);
+      else
+        QWidget::keyPressEvent(event);
+      break;
     case Qt::Key_F: fit(); break;
     case Qt::Key_0: setAxisView(AxisView::isometric); break;
     case Qt::Key_1: setAxisView(AxisView::front); break;

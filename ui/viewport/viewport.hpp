@@ -18,7 +18,8 @@ class RenderSurface;
 
 /// The widget that shows a model and plays its motion, or a cloth and its frames. Left drag orbits, middle or shift
 /// drag pans, the wheel zooms towards the cursor, a double click or F fits, 1 to 6 look along the axes, 0
-/// isometrically, Space plays and pauses, a click picks a node. Colours follow the palette.
+/// isometrically, Space plays and pauses, a click picks a node. A live cloth is pulled by a left drag that begins at
+/// one of its nodes; a right drag turns in any case. Colours follow the palette.
 class Viewport : public QWidget {
   Q_OBJECT
 
@@ -52,6 +53,13 @@ class Viewport : public QWidget {
   /// Of the shown cloth's last frame, and the place in it [s or steps].
   double duration() const { return frames_.empty() ? 0 : frames_.back()->time; }
   double time() const { return time_; }
+  /// The cloth on show goes on by itself, and its nodes can be pulled; there is nothing to play or to scrub.
+  void setLive(bool live);
+  bool isLive() const { return live_; }
+  /// The live cloth as it is now, and the hands that hold it.
+  void showLive(std::shared_ptr<const scene::ClothFrame> frame, std::vector<render::Hand> hands);
+  /// The node that the mouse pulls.
+  std::optional<int> pulledNode() const { return pulled_; }
   /// Redraws after something was set at clothView().
   void redrawCloth() { redraw(); }
 
@@ -90,6 +98,10 @@ class Viewport : public QWidget {
  Q_SIGNALS:
   /// A click hit this node; -1: nothing near. The selection is the receiver's to change.
   void nodePicked(int node);
+  /// The mouse took a node of the live cloth or moves it: where it is to go [m].
+  void nodePulled(int node, const Eigen::Vector3d& hand);
+  /// The mouse let it go. `stay`: it is to be held where it is.
+  void nodeLetGo(int node, bool stay);
   void tauChanged(double tau);
   void timeChanged(double time);
   /// A cloth, or how much there is of it, or no cloth any more.
@@ -108,6 +120,11 @@ class Viewport : public QWidget {
  private:
   void advance();
   void advanceCloth(double seconds);
+  std::optional<int> nodeAt(const QPointF& place) const;
+  void beginPull(const QMouseEvent& event);
+  void movePull(const QPointF& place);
+  void endPull(bool toggles);
+  void refreshCursor(const QPointF& place);
   void showView(render::View& view);
   void attachToSurface();
   /// `moving`: more of the kind is to come soon.
@@ -129,6 +146,12 @@ class Viewport : public QWidget {
   double clothSpeed_ = 1;
   bool growing_ = false;
   bool followsNewest_ = true;  ///< while frames grow
+  bool live_ = false;
+  std::vector<int> handheld_;  ///< nodes of the live cloth, the pulled one too
+  std::optional<int> pulled_;  ///< by the mouse
+  bool heldBefore_ = false;    ///< the pulled node, by hand
+  Eigen::Vector3d pullBegin_;  ///< where the pulled node was
+  QPointF pullFrom_;           ///< where the mouse was then
   int nodeCount_ = 0;
   int dimension_ = 0;
   bool framed_ = true;         ///< the camera is where fit() or an axis view put it

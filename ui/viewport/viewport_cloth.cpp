@@ -1,3 +1,4 @@
+#include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +28,7 @@ void Viewport::setCloth(std::shared_ptr<const cloth::ClothProblem> problem) {
   frames_.clear();
   time_ = 0;
   followsNewest_ = true;
+  if (!alike) pulled_.reset();
   cloth_.setProblem(std::move(problem));
   if (shown)
     showView(cloth_);
@@ -78,6 +80,68 @@ void Viewport::advanceCloth(double seconds) {
   const bool ended = time_ >= duration();
   // The last frame is seen before it begins again; of a study that runs it waits for the next.
   setTime(ended && !growing_ ? 0 : next);
+}
+
+void Viewport::setLive(bool live) {
+  if (live == live_) return;
+  pause();
+  live_ = live;
+  pulled_.reset();
+  handheld_.clear();
+  cloth_.setHands({});
+  setMouseTracking(live);
+  unsetCursor();
+  Q_EMIT clothChanged();
+  redraw();
+}
+
+void Viewport::showLive(std::shared_ptr<const scene::ClothFrame> frame, std::vector<render::Hand> hands) {
+  if (!showsCloth() || !live_) return;
+  handheld_.clear();
+  for (const render::Hand& hand : hands) handheld_.push_back(hand.node);
+  time_ = frame->time;
+  frames_ = {std::move(frame)};
+  frameClock_ = FrameClock::seconds;
+  cloth_.setFrames(frames_);
+  cloth_.setFrame(0);
+  cloth_.setHands(std::move(hands));
+  if (framed_) cloth_.fit();
+  redraw(true);
+  Q_EMIT timeChanged(time_);
+}
+
+void Viewport::beginPull(const QMouseEvent& event) {
+  if (!showsCloth() || (event.modifiers() & Qt::ShiftModifier)) return;
+  pulled_ = nodeAt(event.position());
+  if (!pulled_) return;
+  framed_ = false;  // a view that follows what is pulled would run away from the mouse
+  heldBefore_ = std::find(handheld_.begin(), handheld_.end(), *pulled_) != handheld_.end();
+  pullBegin_ = cloth_.nodePosition(*pulled_);
+  pullFrom_ = event.position();
+  setCursor(Qt::ClosedHandCursor);
+  Q_EMIT nodePulled(*pulled_, pullBegin_);
+}
+
+void Viewport::movePull(const QPointF& place) {
+  const double ratio = devicePixelRatioF();
+  const auto from = cloth_.pointBeside(pullBegin_, pullFrom_.x() * ratio, pullFrom_.y() * ratio);
+  const auto to = cloth_.pointBeside(pullBegin_, place.x() * ratio, place.y() * ratio);
+  if (from && to) Q_EMIT nodePulled(*pulled_, pullBegin_ + *to - *from);
+}
+
+/// `toggles`: whether hands hold the node changes.
+void Viewport::endPull(bool toggles) {
+  const int node = *pulled_;
+  pulled_.reset();
+  setCursor(Qt::OpenHandCursor);
+  Q_EMIT nodeLetGo(node, heldBefore_ != toggles);
+}
+
+void Viewport::refreshCursor(const QPointF& place) {
+  if (nodeAt(place))
+    setCursor(Qt::OpenHandCursor);
+  else
+    unsetCursor();
 }
 
 }  // namespace pliant::viewport
