@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/solvers/cone_certificate.hpp"
 
 namespace pliant::cloth {
 
@@ -23,6 +24,13 @@ constexpr int stepsBetweenChanges = 3;
 constexpr double progressFactor = 0.9;
 constexpr int patience = 150;
 constexpr double boundChange = 1.6;
+
+/// Of Newton's method: how the step grows, Armijo's condition, and where the line search gives up.
+constexpr double stepGrowth = 2;
+constexpr double stepCut = 8;
+constexpr double sufficientDecrease = 1e-4;
+constexpr double shortestFraction = 1e-6;
+constexpr double roundingOfEnergy = 1e-13;
 
 /// Norm over the nodes that are not held.
 double freeNorm(const Eigen::Matrix3Xd& forces, const std::vector<char>& held) {
@@ -56,8 +64,13 @@ ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions
         std::make_unique<ContactProjection>(sheetCones(sheet, ProjectionNorm::mass).constraints, contact_);
   } else if (limited) {
     const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
-    limiter_ = makeLimiter ? makeLimiter(cones)
-                           : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
+    if (options_.limitMethod == "cone" && !makeLimiter) {
+      potential_.setStressFree(true);  // compression is not to shorten the steps
+      program_ = std::make_unique<solvers::ConeProgram>(
+          cones.constraints, solvers::ConeStiffness{potential_.hessianRows(), potential_.hessianColumns()});
+    } else
+      limiter_ = makeLimiter ? makeLimiter(cones)
+                             : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
   }
   const Eigen::Index nodes = problem_->model->nodeCount();
   positions_ = problem_->model->restPositions.reshaped(3, nodes);
@@ -75,6 +88,89 @@ solvers::ConeSolution ClothDrape::project(const Eigen::Matrix3Xd& candidate, bas
 }
 
 DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
+  DrapeRecord record = program_ ? newtonStep(context) : splitStep(context);
+  record.residual = residual_;
+  record.step.energies = energiesAt(*problem_, positions_, Eigen::Matrix3Xd::Zero(3, positions_.cols()));
+  if (contact_) {
+    const Eigen::Matrix3Xd all = withBodies(*problem_, positions_, options_.time);
+    contact_->update(all);
+    record.step.energies.contact = contact_->value();
+    record.step.smallestGap = contact_->smallestGap(all);
+  }
+  if (!sheet_.limits.empty()) record.step.violation = std::max(0.0, stretchRatios(sheet_, positions_).maxCoeff() - 1);
+  return record;
+}
+
+StepTerms ClothDrape::termsFromRest() const {
+  StepTerms terms;
+  terms.rate = 1 / timeStep_;
+  terms.base = terms.target = positions_.reshaped();
+  if (problem_->model->stiffnessDamping != 0) terms.history = potential_.elasticForce(terms.base);
+  return terms;
+}
+
+double ClothDrape::norm(const Vector& force) const {
+  return freeNorm(force.reshaped(3, positions_.cols()), sheet_.fixed);
+}
+
+DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
+  const double h = timeStep_;
+  const Eigen::Index nodes = positions_.cols();
+  DrapeRecord record;
+  record.timeStep = h;
+  const Vector x = positions_.reshaped();
+  potential_.setTerms(termsFromRest());
+  potential_.beginWind(positions_, options_.time);
+  const base::Stopwatch watch;
+  const Vector slope = potential_.gradient(x);
+  Vector step;
+  record.step.newtonIterations = 1;
+  if (!potential_.newtonStep(x, slope, step) ||
+      !program_->setStiffness(h * h * potential_.hessianEntries(), h * h * potential_.inertia() - 1)) {
+    timeStep_ = h / stepCut;
+    if (timeStep_ < shortestStep) {
+      record.step.termination = TerminationType::failed;
+      record.step.message = "No direction lowers the energy of the drape.";
+    }
+    return record;
+  }
+  // What the step was in truth, where the Hessian needed more inertia.
+  const double taken = 1 / std::sqrt(potential_.inertia());
+  record.step.newtonSeconds = watch.seconds();
+  const base::Stopwatch projectionWatch;
+  auto solution = std::make_shared<solvers::ConeSolution>(
+      program_->solve((x + step).reshaped(3, nodes), positions_, options_.projection.cone, context));
+  record.step.projections = 1;
+  record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
+  record.step.projectionSeconds = projectionWatch.seconds();
+  if (!solution->report.converged()) {
+    record.step.termination = solution->report.termination;
+    record.step.message = solution->report.message;
+  }
+  if (solution->report.converged() || solution->report.termination == TerminationType::iterationLimit) {
+    const Vector direction = solution->positions.reshaped() - x;
+    const double decrease = -slope.dot(direction), energy = potential_.value(x);
+    double fraction = 1;
+    // The last steps lower the energy by less than its rounding.
+    while (fraction > shortestFraction && decrease > roundingOfEnergy * std::abs(energy) &&
+           !(potential_.value(x + fraction * direction) <= energy - sufficientDecrease * fraction * decrease))
+      fraction *= 0.5;
+    positions_ = (x + fraction * direction).reshaped(3, nodes);
+    timeStep_ = std::clamp(taken * (fraction == 1 ? stepGrowth : fraction), shortestStep, longestStep_);
+    // With the multipliers that the whole step had.
+    solution->positions = positions_;
+    limitForces_ = solvers::limitForces(program_->constraints(), *solution) / (h * h);
+    for (Eigen::Index node = 0; node < nodes; ++node)
+      if (sheet_.fixed[static_cast<std::size_t>(node)]) limitForces_.col(node).setZero();
+    const Vector external = potential_.externalForce() + potential_.windForce();
+    residual_ = norm(potential_.elasticForce(positions_.reshaped()) - external + Vector(limitForces_.reshaped())) /
+                std::max(norm(external), std::numeric_limits<double>::min());
+  }
+  record.step.projection = std::move(solution);
+  return record;
+}
+
+DrapeRecord ClothDrape::splitStep(base::ExecutionContext& context) {
   const double h = timeStep_;
   const Vector& masses = potential_.masses();
   const Eigen::Index nodes = positions_.cols();
@@ -88,11 +184,7 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     return report.converged() || report.termination == TerminationType::iterationLimit;
   };
 
-  StepTerms terms;
-  terms.rate = 1 / h;
-  terms.base = terms.target = positions_.reshaped();
-  if (problem_->model->stiffnessDamping != 0) terms.history = potential_.elasticForce(terms.base);
-  potential_.setTerms(std::move(terms));
+  potential_.setTerms(termsFromRest());
   potential_.setExtraForce(-limitForces_.reshaped());
   potential_.beginWind(positions_, options_.time);
   Vector candidate = positions_.reshaped();
@@ -127,7 +219,6 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     const Vector unbalanced = elastic - external + Vector(forces.reshaped());
     const Vector splitting = elastic - potential_.elasticForce(candidate);
     const Vector motion = masses.cwiseProduct((next - positions_).reshaped()) / (h * h);
-    const auto norm = [&](const Vector& force) { return freeNorm(force.reshaped(3, nodes), sheet_.fixed); };
     residual_ = norm(unbalanced) / std::max(norm(external), std::numeric_limits<double>::min());
     if (++sinceChange_ >= (projects ? stepsBetweenChanges : 1)) {
       sinceChange_ = 0;
@@ -146,15 +237,6 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
     positions_ = next;
     limitForces_ = forces;
   }
-  record.residual = residual_;
-  record.step.energies = energiesAt(*problem_, positions_, Eigen::Matrix3Xd::Zero(3, nodes));
-  if (contact_) {
-    const Eigen::Matrix3Xd all = withBodies(*problem_, positions_, options_.time);
-    contact_->update(all);
-    record.step.energies.contact = contact_->value();
-    record.step.smallestGap = contact_->smallestGap(all);
-  }
-  if (!sheet_.limits.empty()) record.step.violation = std::max(0.0, stretchRatios(sheet_, positions_).maxCoeff() - 1);
   return record;
 }
 

@@ -21,7 +21,14 @@ struct DrapeRecord {
 };
 
 /// The static equilibrium of a cloth with limits: positions x that minimise E(x) - f·x among those that keep the
-/// limits, where forces R of the limits balance the rest, ∇E(x) - f + R = 0. Each step
+/// limits, where forces R of the limits balance the rest, ∇E(x) - f + R = 0.
+///
+/// With cone projections and without contact, by Newton's method: each step projects the point to which Newton's method
+/// for E(x) - f·x + ‖x - x_k‖²_M / (2h²) would go onto the limits, not by mass but in the norm of that function's
+/// Hessian. This is its quadratic model's minimum within the limits, which are convex, so every point on the way there
+/// keeps them and a line search decides how far to go; h grows as long as whole steps lower the energy.
+///
+/// Otherwise by splitting: each step
 ///   x̃ = argmin E(x) - f·x + R_k·x + ‖x - x_k‖²_M / (2h²),  x_{k+1} = P(x̃ + h² M⁻¹ R_k),
 ///   R_{k+1} = R_k + M (x̃ - x_{k+1}) / h²
 /// is a projected implicit Euler step without inertia that already knows the limits' forces (the alternating direction
@@ -47,6 +54,10 @@ class ClothDrape {
   double timeStep() const { return timeStep_; }
 
  private:
+  DrapeRecord newtonStep(base::ExecutionContext& context);
+  DrapeRecord splitStep(base::ExecutionContext& context);
+  StepTerms termsFromRest() const;
+  double norm(const Vector& force) const;  ///< over the nodes that are not held
   solvers::ConeSolution project(const Eigen::Matrix3Xd& candidate, base::ExecutionContext& context);
 
   std::shared_ptr<const ClothProblem> problem_;
@@ -54,6 +65,7 @@ class ClothDrape {
   IncrementalPotential potential_;
   LimitedSheet sheet_;
   std::unique_ptr<StrainLimiter> limiter_;
+  std::unique_ptr<solvers::ConeProgram> program_;         ///< of Newton's method; stands for the limiter
   std::shared_ptr<mechanics::ContactBarrier> contact_;    ///< null without bodies and self-contact
   std::unique_ptr<ContactProjection> contactProjection_;  ///< stands for the limiter where there is contact
   Eigen::Matrix3Xd positions_, limitForces_;

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/cloth/contact_system.hpp"
 #include "core/solvers/cone_certificate.hpp"
-#include "core/solvers/cone_elements.hpp"
 
 namespace pliant::cloth {
 
@@ -17,53 +15,48 @@ using Positions = Eigen::Matrix3Xd;
 
 namespace {
 
-constexpr double barrierReduction = 0.2;
-constexpr double firstBarrier = 1;  ///< times the objective over the number of bounds
-/// Newton's method moves on to the next barrier when what is left to gain is this part of what one bound costs: only
-/// then is every one of them where this barrier wants it.
-constexpr double centred = 0.1;
-constexpr double finallyCentred = 1e-6;
-constexpr double smallestSlack = 1e-9;
-constexpr double largestInertia = 1e20;
-constexpr int mostNewtonSteps = 60;  ///< for one barrier
-constexpr int mostMoves = 200;       ///< of bodies and held nodes, each as far as nothing is in the way
-constexpr double leastMove = 1e-6;   ///< a shorter one counts as stuck
-constexpr int mostStuck = 10;
-constexpr int stepsBetweenMoves = 20;  ///< with which the sheet gets out of the way
+/// Limits are tightened by this factor, so that what keeps the tight ones but for a residual keeps the true ones.
+constexpr double tightening = 1 - 1e-10;
+/// Fraction of the way to the boundary of the cones.
+constexpr double stepFraction = 0.99;
+/// Corrections of one predictor, and the step length with which nothing is left to gain by more of them.
+constexpr int mostCorrections = 4;
+constexpr double longEnough = 0.95;
+constexpr double smallestGain = 0.02;
+/// So much of the contacts' negative curvature is taken away, one after the other, until there is a step so long.
+constexpr std::array convexities = {0.0, 0.05, 0.25, 1.0};
+constexpr double shortStep = 0.3;
+constexpr int levelsKept = 3;  ///< iterations for which a convexity stays where a smaller one was too small
+/// The barrier that is aimed at where steps are short, times the present one.
+constexpr double recentring = 10;
+constexpr double largestInertia = 1e12;
+/// What the barrier of the limits stays above: parts of what Newton's method has left to gain, and of the gap asked
+/// for. Else slacks vanish before contact has been found.
+constexpr double barrierOfGain = 0.3;
+constexpr double barrierOfTolerance = 0.1;
 constexpr double armijo = 1e-4;
-constexpr double drownedGain = 1e-12;  ///< of the value
+constexpr double drownedGain = 1e-12;  ///< of the contact energy
+constexpr int mostHalvings = 12;
+/// A step that contact cuts short ends a little earlier: gaps that are very small take long to open again.
+constexpr double beforeContact = 0.8;
+constexpr double stallingStep = 0.02;
+constexpr int mostStalls = 10;      ///< so many steps so short in succession
+constexpr int mostRestarts = 2;     ///< with a larger barrier
+constexpr int longestSearch = 3;    ///< times the iterations asked for, since contacts are found one after the other
+constexpr double leastMove = 1e-3;  ///< of bodies and held nodes at a time; less counts as stuck
 
 }  // namespace
 
 struct ContactProjection::Implementation {
   Implementation(solvers::ConeConstraints given, std::shared_ptr<mechanics::ContactBarrier> barrier)
-      : constraints(std::move(given)), contact(std::move(barrier)), vertexOfNode(constraints.nodeCount, -1) {
-    for (int node = 0; node < constraints.nodeCount; ++node)
-      if (!constraints.fixed[node]) {
-        vertexOfNode[node] = static_cast<int>(nodeOfVertex.size());
-        nodeOfVertex.push_back(node);
-      }
-    for (const solvers::ConeElement& element : constraints.elements)
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < a; ++b) addPair(element.nodes[a], element.nodes[b]);
-  }
+      : constraints(std::move(given)), contact(barrier), system(tightened(constraints), std::move(barrier)) {}
 
-  /// True if it is new.
-  bool addPair(int a, int b) {
-    const int p = vertexOfNode[a], q = vertexOfNode[b];
-    return p >= 0 && q >= 0 && p != q && pairs.insert({std::max(p, q), std::min(p, q)}).second;
-  }
-
-  /// The contacts' blocks at the last update, with room for them in the factors.
-  void layOut() {
-    blocks.clear();
-    contact->addHessian(blocks);
-    bool grown = !cholesky.has_value();
-    for (const mechanics::ContactBlock& block : blocks) grown |= addPair(block.row, block.column);
-    if (!grown) return;
-    cholesky.emplace(
-        static_cast<int>(nodeOfVertex.size()), std::vector<std::array<int, 2>>(pairs.begin(), pairs.end()));
-    elements.emplace(constraints, vertexOfNode, *cholesky);
+  static solvers::ConeConstraints tightened(solvers::ConeConstraints constraints) {
+    for (solvers::MetricBounds& bounds : constraints.bounds) {
+      for (Eigen::Matrix2d& ellipse : bounds.ellipses) ellipse *= tightening * tightening;
+      for (Eigen::Vector2d& direction : bounds.directions) direction /= tightening;
+    }
+    return constraints;
   }
 
   Positions withBodies(const Positions& x) const {
@@ -76,128 +69,189 @@ struct ContactProjection::Implementation {
     return 0.5 * ((x - *candidate).colwise().squaredNorm() * constraints.masses).value();
   }
 
-  /// The function that Newton's method minimises; infinite where it must not go. Updates the contacts.
-  double value(const Positions& x, double barrier) {
-    const double logarithms = elements->centre(x, barrier);
-    if (!std::isfinite(logarithms)) return std::numeric_limits<double>::infinity();
-    contact->update(withBodies(x));
-    return distance(x) + contact->value() * scale - barrier * logarithms;
-  }
+  bool keepsLimits(const Positions& x) { return system.elements().largestStretch(x) * tightening < 1; }
 
-  /// The Hessian with `inertia` times the masses, and the limits' forces.
-  bool factorize(const Positions& x, double inertia, Positions& forces) {
-    Positions ignored = Positions::Zero(3, x.cols());
-    forces.setZero();
-    cholesky->clear();
-    elements->linearize(x, forces, ignored, *cholesky);
-    double* values = cholesky->values();
-    for (const mechanics::ContactBlock& block : blocks) {
-      const int p = vertexOfNode[block.row], q = vertexOfNode[block.column];
-      if (p < 0 || q < 0) continue;
-      const auto place = cholesky->place(p, q);
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-          values[place.offset + Eigen::Index{j} * place.stride + i] +=
-              scale * (place.transposed ? block.entry(j, i) : block.entry(i, j));
-    }
-    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v) {
-      const auto place = cholesky->place(static_cast<int>(v), static_cast<int>(v));
-      for (int i = 0; i < 3; ++i)
-        values[place.offset + Eigen::Index{i} * (place.stride + 1)] += inertia * constraints.masses[nodeOfVertex[v]];
-    }
-    return cholesky->factorize();
-  }
-
-  /// One Newton step with line search from `x`, whose value is `energy`. Returns half the squared decrement (0 if
-  /// it drowns in rounding), or nothing if no step lowers the value.
-  std::optional<double> newtonStep(Positions& x, double barrier, double& energy) {
-    layOut();
-    elements->centre(x, barrier);
-    const Eigen::Index nodes = constraints.nodeCount;
-    Positions forces(3, nodes), push = Positions::Zero(3, nodes);
-    // Very near to a limit the barrier is so stiff that the matrix loses its small eigenvalues to rounding; more
-    // inertia keeps them, and the step still leads away from the limit.
-    double inertia = 1;
-    while (!factorize(x, inertia, forces)) {
-      inertia *= 1e3;
-      if (inertia > largestInertia) return std::nullopt;
-    }
-    contact->addGradient(push);
-    Eigen::VectorXd unknowns(3 * static_cast<Eigen::Index>(nodeOfVertex.size()));
-    Positions gradient = (x - *candidate) * constraints.masses.asDiagonal();
-    gradient += forces + scale * push;
-    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
-      unknowns.segment<3>(3 * static_cast<Eigen::Index>(v)) = -gradient.col(nodeOfVertex[v]);
-    const Eigen::VectorXd right = unknowns;
-    cholesky->solve(unknowns);
-    const double decrement = right.dot(unknowns);
-    Positions dx = Positions::Zero(3, nodes);
-    for (std::size_t v = 0; v < nodeOfVertex.size(); ++v)
-      dx.col(nodeOfVertex[v]) = unknowns.segment<3>(3 * static_cast<Eigen::Index>(v));
-    Positions motion = Positions::Zero(3, nodes + bodies.cols());
-    motion.leftCols(nodes) = dx;
+  /// Moves bodies and held nodes on towards `to` (bodies included), as far as nothing is in the way. True if they have
+  /// arrived.
+  bool moveOn(Positions& x, const Positions& to) {
+    Positions motion = Positions::Zero(3, to.cols());
+    for (int node = 0; node < constraints.nodeCount; ++node)
+      if (constraints.fixed[node]) motion.col(node) = to.col(node) - x.col(node);
+    motion.rightCols(bodies.cols()) = to.rightCols(bodies.cols()) - bodies;
+    if (motion.isZero(0)) return true;
     double step = contact->largestStep(withBodies(x), motion);
-    for (int attempt = 0; attempt < 40; ++attempt, step *= 0.5) {
-      const Positions trial = x + step * dx;
-      const double trialEnergy = value(trial, barrier);
-      if (trialEnergy <= energy - armijo * step * decrement) {
-        x = trial;
-        energy = trialEnergy;
-        return 0.5 * decrement;
-      }
+    if (step < 1) step *= 0.5;  // the sheet needs room to get out of the way
+    x += step * motion.leftCols(x.cols());
+    bodies += step * motion.rightCols(bodies.cols());
+    if (step == 1) {
+      for (int node = 0; node < constraints.nodeCount; ++node)
+        if (constraints.fixed[node]) x.col(node) = to.col(node);
+      bodies = to.rightCols(bodies.cols());
     }
-    // What is left to gain may drown in the rounding of the value.
-    const bool drowned = decrement <= drownedGain * std::abs(energy);
-    energy = value(x, barrier);  // and the contacts as they are at x
-    return drowned ? std::optional<double>(0) : std::nullopt;
+    contact->update(withBodies(x));
+    return step == 1;
   }
 
-  /// Moves bodies and held nodes on, and the sheet out of their way. False if they get stuck.
-  bool moveKinematic(Positions& x, const Positions& bodiesTo, double barrier, base::ExecutionContext& context) {
-    int stuck = 0;
-    for (int move = 0; move < mostMoves; ++move) {
-      const Eigen::Index nodes = constraints.nodeCount;
-      Positions motion = Positions::Zero(3, nodes + bodies.cols());
-      for (int node = 0; node < constraints.nodeCount; ++node)
-        if (constraints.fixed[node]) motion.col(node) = candidate->col(node) - x.col(node);
-      motion.rightCols(bodies.cols()) = bodiesTo - bodies;
-      if (motion.isZero(0)) return true;
-      if (context.cancelRequested()) return false;
-      // Half of what is possible: from very small gaps Newton's method comes back only by a factor of two a step.
-      double step = contact->largestStep(withBodies(x), motion);
-      if (step < 1) step *= 0.5;
-      while (step > leastMove && !std::isfinite(elements->centre(x + step * motion.leftCols(nodes), barrier)))
-        step *= 0.5;
-      if (step <= leastMove) {
-        if (++stuck > mostStuck) return false;  // the sheet does not get out of the way any more
-      } else if (step == 1) {
-        for (int node = 0; node < constraints.nodeCount; ++node)
-          if (constraints.fixed[node]) x.col(node) = candidate->col(node);
-        bodies = bodiesTo;
-      } else {
-        x += step * motion.leftCols(nodes);
-        bodies += step * motion.rightCols(bodies.cols());
-      }
-      double energy = value(x, barrier);
-      for (int k = 0; k < stepsBetweenMoves; ++k) {
-        const std::optional<double> decrement = newtonStep(x, barrier, energy);
-        if (!decrement || *decrement <= centred * barrier) break;
-      }
+  struct Direction {
+    Positions dx;
+    double length = 0;  ///< of the step to which limits and contact let it be cut
+    double power = 0;   ///< dxᵀ K dx
+  };
+
+  /// Predictor and corrections with the factors there are.
+  void direct(const Positions& x, const Positions& gradient, const Positions& predictorForces, double complementarity,
+              double tolerance, Direction& direction) {
+    solvers::ConeElements& elements = system.elements();
+    Positions right = -(gradient + predictorForces), dx = Positions::Zero(3, x.cols()), forces(3, x.cols());
+    elements.clearCorrection();
+    system.solve(right, dx);
+    const double affine = std::min(1.0, stepFraction * elements.direct(dx));
+    const double bounds = std::max(1, elements.boundCount());
+    const double barrier = complementarity / bounds;
+    const double ratio = complementarity > 0 ? elements.complementarityAfter(affine) / complementarity : 0;
+    const double gain = 0.5 * right.cwiseProduct(dx).sum();
+    const double floor = std::max(barrierOfGain * gain, barrierOfTolerance * tolerance) / bounds;
+    const double target = std::max(ratio * ratio * ratio * barrier, std::min(floor, barrier));
+    direction.length = 0;
+    const auto tryCorrection = [&](double towards, double weight) {
+      forces.setZero();
+      elements.correct(towards, weight, forces);
+      right = -(gradient + forces);
+      system.solve(right, dx);
+      const double step = std::min(1.0, stepFraction * elements.direct(dx));
+      if (direction.length > 0 && step < direction.length + smallestGain) return false;
+      direction = {dx, step, right.cwiseProduct(dx).sum()};
+      elements.keepDirection();
+      return step <= longEnough;
+    };
+    for (int correction = 0; correction < mostCorrections && tryCorrection(target, 1); ++correction) {
     }
-    return false;
+    // Products of whole steps mislead where they are short, and slacks are too small for what is to be moved.
+    if (direction.length < shortStep) tryCorrection(recentring * barrier, 0);
+    elements.restoreDirection();
+    Positions motion = Positions::Zero(3, x.cols() + bodies.cols());
+    motion.leftCols(x.cols()) = direction.length * direction.dx;
+    const double free = contact->largestStep(withBodies(x), motion);
+    direction.length *= free < 1 ? beforeContact * free : 1;
   }
+
+  /// Goes along the direction as far as the contact energy is not above its quadratic model by more than the model's
+  /// decrease; what is not of the contacts is quadratic but for the limits' slacks. Leaves the contacts of the new x.
+  void advance(const Direction& direction, const Positions& push, Positions& x) {
+    const double before = scale * contact->value(), slope = scale * push.cwiseProduct(direction.dx).sum();
+    const double curvature = scale * system.contactCurvature(direction.dx);
+    double step = direction.length;
+    for (int halving = 0;; ++halving) {
+      const Positions trial = x + step * direction.dx;
+      contact->update(withBodies(trial));
+      const double excess = scale * contact->value() - before - step * slope - 0.5 * step * step * curvature;
+      if (excess <= ((1 - armijo) * step - 0.5 * step * step) * direction.power + drownedGain * before ||
+          halving == mostHalvings) {
+        x = trial;
+        break;
+      }
+      step *= 0.5;
+    }
+    system.elements().advance(step);
+  }
+
+  /// Held nodes and bodies go to `to`, and the sheet to its projection.
+  TerminationType minimize(Positions& x, const Positions& to, const solvers::ConeProgramOptions& options, double least,
+                           base::ExecutionContext& context, base::SolverReport& report);
 
   const solvers::ConeConstraints constraints;
   std::shared_ptr<mechanics::ContactBarrier> contact;
-  std::vector<int> vertexOfNode, nodeOfVertex;
-  std::set<std::array<int, 2>> pairs;
-  std::optional<math::BlockCholesky> cholesky;
-  std::optional<solvers::ConeElements> elements;
-  std::vector<mechanics::ContactBlock> blocks;
+  ContactSystem system;  ///< with tight limits
   const Positions* candidate = nullptr;
   Positions bodies;
   double scale = 1;  ///< of the contact energy: 1 / rate²
+  bool hasMultipliers = false;
+  double lastObjective = 0;
 };
+
+TerminationType ContactProjection::Implementation::minimize(Positions& x, const Positions& to,
+                                                            const solvers::ConeProgramOptions& options, double least,
+                                                            base::ExecutionContext& context,
+                                                            base::SolverReport& report) {
+  solvers::ConeElements& elements = system.elements();
+  contact->update(withBodies(x));
+  bool arrived = moveOn(x, to);
+  if (arrived && keepsLimits(*candidate)) {  // the candidate may be its own projection
+    Positions ahead = Positions::Zero(3, to.cols());
+    ahead.leftCols(x.cols()) = *candidate - x;
+    if (contact->largestStep(withBodies(x), ahead) == 1) {
+      contact->update(withBodies(*candidate));
+      if (contact->value() == 0) {
+        x = *candidate;
+        elements.start(x, 0, false);
+        hasMultipliers = false;
+        report.iterations.push_back({});
+        return TerminationType::converged;
+      }
+      contact->update(withBodies(x));
+    }
+  }
+  const double farthest = std::max(distance(x), least);
+  const double expected = lastObjective > 0 ? std::clamp(lastObjective, 1e-4 * farthest, farthest) : farthest;
+  const bool warm = options.warmStart && hasMultipliers;
+  double barrier0 = (warm ? 1 : 10) * expected / std::max(1, elements.boundCount());
+  elements.start(x, barrier0, warm);
+  hasMultipliers = false;
+  Positions forces(3, x.cols()), predictorForces(3, x.cols()), push(3, x.cols()), gradient(3, x.cols());
+  Direction direction;
+  std::size_t level = 0;
+  int kept = 0, stalled = 0, restarts = 0;
+  for (int iteration = 0;; ++iteration) {
+    if (!arrived) arrived = moveOn(x, to);
+    double inertia = 1;
+    const auto assemble = [&] {
+      return system.assemble(x, scale, inertia, convexities[level], forces, predictorForces);
+    };
+    const std::size_t lastLevel = level;
+    if (level > 0 && --kept <= 0) --level;
+    const auto at = assemble();
+    push.setZero();
+    contact->addGradient(push);
+    gradient = (x - *candidate) * constraints.masses.asDiagonal();
+    gradient += scale * push;
+    double squaredResidual = 0;
+    for (const int node : system.freeNodes())
+      squaredResidual += (gradient.col(node) + forces.col(node)).squaredNorm() / constraints.masses[node];
+    const double gap = 0.5 * squaredResidual + at.supportGap, objective = distance(x);
+    const double tolerance = std::max(options.relativeGap * objective, least);
+    report.iterations.push_back({static_cast<int>(report.iterations.size()), std::abs(gap) / std::max(objective, least),
+                                 0, std::max(0.0, at.largestStretch * tightening - 1)});
+    if (!std::isfinite(gap)) return TerminationType::failed;
+    if (arrived && std::abs(gap) <= tolerance && at.largestStretch * tightening < 1) {
+      hasMultipliers = true;
+      lastObjective = objective;
+      return TerminationType::converged;
+    }
+    if (context.cancelRequested()) return TerminationType::cancelled;
+    if (iteration >= longestSearch * options.maximumIterations) return TerminationType::iterationLimit;
+
+    direction.length = 0;
+    while (true) {
+      if (system.factorize()) {
+        direct(x, gradient, predictorForces, at.complementarity, tolerance, direction);
+        if (direction.length >= shortStep || level + 1 == convexities.size()) break;
+      }
+      if (level + 1 < convexities.size())
+        ++level;
+      else if ((inertia *= 100) > largestInertia)
+        return TerminationType::failed;
+      assemble();
+    }
+    if (level > lastLevel || (level == lastLevel && kept <= 0)) kept = levelsKept;
+    advance(direction, push, x);
+    report.iterations.back().stepLength = direction.length;
+    stalled = direction.length < stallingStep ? stalled + 1 : 0;
+    if (stalled < mostStalls) continue;
+    if (restarts++ == mostRestarts) return TerminationType::iterationLimit;
+    stalled = 0;
+    elements.start(x, barrier0 *= 100, false);
+  }
+}
 
 ContactProjection::ContactProjection(solvers::ConeConstraints constraints,
                                      std::shared_ptr<mechanics::ContactBarrier> contact)
@@ -215,87 +269,74 @@ solvers::ConeSolution ContactProjection::project(const Positions& candidate, con
   own.candidate = &candidate;
   own.bodies = motion.bodiesFrom;
   own.scale = 1 / (rate * rate);
-  Positions& x = solution.positions;
-  x = start;
-  own.contact->update(own.withBodies(x));
-  own.layOut();
-  if (!std::isfinite(own.elements->centre(x, 1)))
+  own.contact->update(own.withBodies(start));
+  if (!own.keepsLimits(start))
     throw base::InputError("", "A projection with contact must start inside the stretch limits.");
   if (!std::isfinite(own.contact->value()))
     throw base::InputError("", "A projection with contact must start without contact.");
-
-  // What each bound may cost at first: a part of what the projection is about.
-  const int bounds = std::max(1, own.elements->boundCount());
   const double size = (candidate.rowwise().maxCoeff() - candidate.rowwise().minCoeff()).norm();
   const double least = options.absoluteGap * own.constraints.masses.sum() * size * size;
-  double barrier = std::max(firstBarrier * own.distance(x), least) / bounds;
-  const auto finish = [&](TerminationType termination, const char* message) {
-    // The contact forces as they are make a convex problem, of which this is the solution.
-    own.contact->update(own.withBodies(x));
-    own.elements->centre(x, barrier);
-    own.elements->report(solution);
-    Positions push = Positions::Zero(3, x.cols());
-    own.contact->addGradient(push);
-    for (int node = 0; node < own.constraints.nodeCount; ++node)
-      push.col(node) *= own.constraints.fixed[node] ? 0 : own.scale / own.constraints.masses[node];
-    solvers::certify(own.constraints, candidate - push, solution);
-    const double gap = solution.gap();  // of that problem; the objective is reported of this one
-    solution.objective = own.distance(x);
-    solution.bound = solution.objective - gap;
-    report.termination = termination;
-    report.message = message;
-    report.seconds = stopwatch.seconds();
-    if (reached) *reached = own.bodies;
-    return solution;
-  };
 
-  if (!own.moveKinematic(x, motion.bodiesTo, barrier, context)) {
-    if (context.cancelRequested()) return finish(TerminationType::cancelled, "The projection was cancelled.");
-    return finish(TerminationType::failed,
-                  "A body or a held node cannot get on without breaking a stretch limit or going through the cloth.");
-  }
-  // The candidate may be its own projection.
-  Positions ahead = Positions::Zero(3, x.cols() + own.bodies.cols());
-  ahead.leftCols(x.cols()) = candidate - x;
-  if (std::isfinite(own.elements->centre(candidate, barrier)) &&
-      own.contact->largestStep(own.withBodies(x), ahead) == 1) {
-    own.contact->update(own.withBodies(candidate));
-    if (own.contact->value() == 0) {
-      x = candidate;
-      barrier = 0;
-      report.iterations.push_back({});
-      return finish(TerminationType::converged, "");
-    }
-  }
-  int iteration = 0;
+  // All at once, or in parts: `free` and `freeBodies` are what has been reached within the limits.
+  Positions free = start, freeBodies = motion.bodiesFrom;
+  TerminationType termination = TerminationType::failed;
+  double part = 1;
   while (true) {
-    // Nearer to the limits the next step could not start: the barrier's Hessian would lose all digits.
-    const bool last = barrier * bounds <= std::max(options.relativeGap * own.distance(x), least) ||
-                      own.elements->smallestSlack() < smallestSlack;
-    const double enough = (last ? finallyCentred : centred) * barrier;
-    double energy = own.value(x, barrier);
-    bool reachedEnough = false;
-    for (int k = 0; k < mostNewtonSteps && !reachedEnough; ++k) {
-      if (context.cancelRequested()) return finish(TerminationType::cancelled, "The projection was cancelled.");
-      const std::optional<double> decrement = own.newtonStep(x, barrier, energy);
-      report.iterations.push_back({iteration++, barrier * bounds / std::max(own.distance(x), least), 1, 0});
-      if (!decrement) break;
-      reachedEnough = *decrement <= enough;
+    Positions to = own.withBodies(candidate);
+    to.rightCols(own.bodies.cols()) = motion.bodiesTo;
+    const Positions from = own.withBodies(free);
+    bool moves = false;
+    for (Eigen::Index node = 0; node < to.cols(); ++node)
+      if (node >= free.cols() || own.constraints.fixed[node]) moves |= to.col(node) != from.col(node);
+    if (part < 1) to = from + part * (to - from);
+    Positions x = free;
+    termination = own.minimize(x, to, options, least, context, report);
+    const bool arrived = own.bodies == to.rightCols(own.bodies.cols());
+    if (termination != TerminationType::converged && !moves) {
+      // On the way to what was found limits hold up to some place, for they are convex.
+      Positions ahead = Positions::Zero(3, to.cols());
+      ahead.leftCols(x.cols()) = x - free;
+      double step = x.allFinite() ? own.contact->largestStep(from, ahead) : 0;
+      for (int halving = 0; halving < 60 && !own.keepsLimits(free + step * ahead.leftCols(x.cols())); ++halving)
+        step *= 0.5;
+      free += step * ahead.leftCols(x.cols());
+      break;
     }
-    // Where all bounds are centred, they cost `barrier` each.
-    if (last) {
-      // What decides is the certificate; beside the bounds' costs it counts the forces that are not balanced.
-      finish(TerminationType::converged, "");
-      if (std::abs(solution.gap()) > 2 * std::max(options.relativeGap * solution.objective, least)) {
-        report.termination = TerminationType::iterationLimit;
-        report.message = "The projection keeps limits and contact, but it is not as near to the candidate as asked.";
-      }
-      return solution;
+    const bool feasible = arrived && x.allFinite() && own.keepsLimits(x);
+    if (feasible) {
+      free = x;
+      freeBodies = own.bodies;
     }
-    if (iteration >= 20 * options.maximumIterations)
-      return finish(TerminationType::iterationLimit, "The projection with contact did not converge.");
-    barrier *= barrierReduction;
+    own.bodies = freeBodies;
+    if (termination == TerminationType::cancelled || (feasible && part == 1)) break;
+    part = feasible ? 1 : 0.5 * part;
+    if (part < leastMove) {
+      termination = TerminationType::failed;
+      break;
+    }
   }
+
+  // The contact forces as they are make a convex problem, of which this is the solution.
+  solution.positions = free;
+  own.contact->update(own.withBodies(free));
+  own.system.elements().report(solution);
+  Positions push = Positions::Zero(3, free.cols());
+  own.contact->addGradient(push);
+  for (int node = 0; node < own.constraints.nodeCount; ++node)
+    push.col(node) *= own.constraints.fixed[node] ? 0 : own.scale / own.constraints.masses[node];
+  solvers::certify(own.constraints, candidate - push, solution);
+  const double gap = solution.gap();  // of that problem; the objective is reported of this one
+  solution.objective = own.distance(free);
+  solution.bound = solution.objective - gap;
+  report.termination = termination;
+  if (termination == TerminationType::cancelled) report.message = "The projection was cancelled.";
+  if (termination == TerminationType::iterationLimit)
+    report.message = "The projection keeps limits and contact, but it is not as near to the candidate as asked.";
+  if (termination == TerminationType::failed)
+    report.message = "A body or a held node cannot get on without breaking a stretch limit or going through the cloth.";
+  report.seconds = stopwatch.seconds();
+  if (reached) *reached = freeBodies;
+  return solution;
 }
 
 }  // namespace pliant::cloth

@@ -129,7 +129,7 @@ Vector IncrementalPotential::gradient(const Vector& x) const {
 }
 
 void IncrementalPotential::evaluateHessian(const Vector& x) {
-  assembler_.hessianEntries(x, entries_);
+  assembler_.hessianEntries(x, entries_, stressFree_ ? &problem_->model->restPositions : nullptr);
   entries_ *= 1 + problem_->model->stiffnessDamping * terms_.rate;
   if (wind_) wind_->addHessian(terms_.rate * (x - terms_.base), terms_.rate, entries_);
 }

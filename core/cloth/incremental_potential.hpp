@@ -54,6 +54,21 @@ class IncrementalPotential {
   /// NewtonOptions::tolerance bounds.
   base::SolverReport minimize(Vector& x, const NewtonOptions& options, base::ExecutionContext& context);
 
+  /// Whether Hessians leave out the stresses of membranes: what compression takes from them (and tension adds) is then
+  /// no matter of how far a step may go.
+  void setStressFree(bool stressFree) { stressFree_ = stressFree; }
+  /// A step of Newton's method from x, on all coordinates, with as much inertia more as the Hessian needs to be
+  /// positive definite. False if none lowers Φ.
+  bool newtonStep(const Vector& x, const Vector& gradient, Vector& step);
+  /// Of the Hessian of the last step: the entries other than those of inertia, in the order of the assembler's [N/m],
+  /// and by how much M counts [1/s²].
+  const Vector& hessianEntries() const { return entries_; }
+  double inertia() const {
+    return (1 + shift_) * terms_.rate * terms_.rate + problem_->model->massDamping * terms_.rate;
+  }
+  const std::vector<int>& hessianRows() const { return assembler_.rows(); }
+  const std::vector<int>& hessianColumns() const { return assembler_.columns(); }
+
   /// ∇E on all coordinates, held ones included [N].
   Vector elasticForce(const Vector& x) const { return assembler_.gradient(x); }
   const Vector& externalForce() const { return externalForce_; }
@@ -66,7 +81,6 @@ class IncrementalPotential {
 
  private:
   double residualOf(const Vector& gradient) const;
-  bool newtonStep(const Vector& x, const Vector& gradient, Vector& step);
   void evaluateHessian(const Vector& x);
   /// The factors of the Hessian last evaluated with `shift` rate² M added; false if it is not positive definite.
   bool factorize(double shift);
@@ -85,6 +99,7 @@ class IncrementalPotential {
   std::vector<Eigen::Index> slots_;                     ///< of each entry of the assembler in the factors, -1: held
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
   Vector entries_;                                      ///< the Hessian, without mass
+  bool stressFree_ = false;
   double shift_ = 0;                                    ///< that the last factorisation needed
 };
 

@@ -54,6 +54,8 @@ class TriangleCollector {
     SurfaceMesh mesh;
     mesh.points.resize(3, static_cast<Eigen::Index>(points_.size()));
     for (std::size_t n = 0; n < points_.size(); ++n) mesh.points.col(static_cast<Eigen::Index>(n)) = scale * points_[n];
+    if (textured_)
+      for (const auto& [a, b, c] : triangles_) mesh.texture.push_back({texture_[a], texture_[b], texture_[c]});
     mesh.triangles = std::move(triangles_);
     return mesh;
   }
@@ -67,6 +69,7 @@ class TriangleCollector {
   }
 
   void append(const aiMesh& part, const aiMatrix4x4& transform) {
+    textured_ = textured_ && (part.mNumFaces == 0 || part.HasTextureCoords(0));
     std::vector<int> index(part.mNumVertices, -1);
     std::vector<int> polygon;
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -82,6 +85,8 @@ class TriangleCollector {
           index[vertex] = static_cast<int>(points_.size());
           const aiVector3D p = transform * part.mVertices[vertex];
           points_.emplace_back(p.x, p.y, p.z);
+          const aiVector3D uv = part.HasTextureCoords(0) ? part.mTextureCoords[0][vertex] : aiVector3D();
+          texture_.emplace_back(uv.x, uv.y);
         }
         polygon.push_back(index[vertex]);
       }
@@ -112,6 +117,8 @@ class TriangleCollector {
 
   const aiScene& scene_;
   std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector2d> texture_;  ///< of each point
+  bool textured_ = true;                  ///< whether all points have it
   std::vector<std::array<int, 3>> triangles_;
 };
 

@@ -74,7 +74,11 @@ SurfaceMesh weldMesh(const SurfaceMesh& mesh, double tolerance) {
   for (const auto& [a, b, c] : mesh.triangles) welded.triangles.push_back({cluster[a], cluster[b], cluster[c]});
   for (const auto& [name, nodes] : mesh.groups) welded.groups[name] = clustersOf(nodes, cluster);
   checkMesh(welded);
-  welded.triangles = orientTriangles(std::move(welded.triangles));
+  const auto oriented = orientTriangles(welded.triangles);
+  welded.texture = mesh.texture;
+  for (std::size_t t = 0; t < welded.texture.size(); ++t)
+    if (oriented[t] != welded.triangles[t]) std::swap(welded.texture[t][1], welded.texture[t][2]);
+  welded.triangles = oriented;
   return welded;
 }
 

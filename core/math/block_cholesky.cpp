@@ -4,7 +4,6 @@
 #include <atomic>
 #include <optional>
 
-#include "core/math/elimination_order.hpp"
 #include "core/math/front_kernels.hpp"
 #include "core/math/parallel.hpp"
 
@@ -24,9 +23,9 @@ inline void addRun(int length, const double* __restrict source, double* __restri
 constexpr int tasksWanted = 8;
 constexpr double parallelFrontWork = 5e6;  ///< below which threads cost more than they save
 
-SupernodeTree chooseFronts(const BlockPattern& pattern) {
+SupernodeTree chooseFronts(const BlockPattern& pattern, OrderingEffort effort) {
   std::optional<SupernodeTree> best;
-  for (const std::vector<int>& order : eliminationOrders(pattern)) {
+  for (const std::vector<int>& order : eliminationOrders(pattern, effort)) {
     SupernodeTree candidate(pattern, order, workOfFront);
     if (!best || candidate.work < best->work) best = std::move(candidate);
   }
@@ -35,11 +34,11 @@ SupernodeTree chooseFronts(const BlockPattern& pattern) {
 
 }  // namespace
 
-BlockCholesky::BlockCholesky(int vertexCount, const std::vector<std::array<int, 2>>& pairs)
+BlockCholesky::BlockCholesky(int vertexCount, const std::vector<std::array<int, 2>>& pairs, OrderingEffort effort)
     : vertexCount_(vertexCount), placeOf_(vertexCount), frontOfPlace_(vertexCount) {
   if (vertexCount == 0) return;
   const BlockPattern pattern(vertexCount, width, pairs);
-  const SupernodeTree tree = chooseFronts(pattern);
+  const SupernodeTree tree = chooseFronts(pattern, effort);
   for (int place = 0; place < vertexCount; ++place) placeOf_[tree.vertices()[place]] = place;
   const int count = static_cast<int>(tree.supernodes.size());
   Eigen::Index size = 0;

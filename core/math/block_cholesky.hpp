@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "core/math/elimination_order.hpp"
 #include "core/math/supernode_tree.hpp"
 
 namespace pliant::math {
@@ -18,7 +19,8 @@ class BlockCholesky {
   static constexpr int width = 3;
 
   /// `pairs`: vertices whose block is not zero, in any order.
-  BlockCholesky(int vertexCount, const std::vector<std::array<int, 2>>& pairs);
+  BlockCholesky(int vertexCount, const std::vector<std::array<int, 2>>& pairs,
+                OrderingEffort effort = OrderingEffort::thorough);
 
   /// Where a block stands: entry (i, j) at values()[offset + j * stride + i], or, if `transposed`, (j, i) there. Of a
   /// diagonal block the entries with i >= j count.

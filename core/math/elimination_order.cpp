@@ -137,7 +137,7 @@ std::vector<int> smallestFill(const Graph& graph, unsigned seed) {
 
 }  // namespace
 
-std::vector<std::vector<int>> eliminationOrders(const BlockPattern& pattern) {
+std::vector<std::vector<int>> eliminationOrders(const BlockPattern& pattern, OrderingEffort effort) {
   const int count = pattern.vertexCount();
   const double dense = std::max(16.0, 10 * std::sqrt(count));
   std::vector<int> sparse;
@@ -147,7 +147,7 @@ std::vector<std::vector<int>> eliminationOrders(const BlockPattern& pattern) {
   }
   if (sparse.empty()) return {last};
   const Graph graph(pattern, sparse);
-  std::vector<std::vector<int>> orders(dissections + fillTries(graph.size()));
+  std::vector<std::vector<int>> orders(effort == OrderingEffort::quick ? 1 : dissections + fillTries(graph.size()));
   parallelFor(static_cast<int>(orders.size()), [&](int i) {
     const auto seed = static_cast<unsigned>(i);
     std::vector<int>& order = orders[i];

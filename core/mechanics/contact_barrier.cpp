@@ -21,6 +21,8 @@ using geometry::SimplexPair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int pairsOfChunk = 512;
+/// Pairs that use up less of their gap in a step are not followed.
+constexpr double keptAside = 0.8;
 
 /// What body(i, items) appends for i = 0 .. count-1, in that order.
 template <class Item, class Body>
@@ -37,6 +39,16 @@ std::vector<Item> gatherInChunks(std::size_t count, const Body& body) {
   items.reserve(size);
   for (auto& part : parts) items.insert(items.end(), part.begin(), part.end());
   return items;
+}
+
+/// body(i) for i = 0 .. count-1, in any order.
+template <class Body>
+void forEachInChunks(std::size_t count, const Body& body) {
+  const int chunks = static_cast<int>((count + pairsOfChunk - 1) / pairsOfChunk);
+  math::parallelFor(chunks, [&](int chunk) {
+    const std::size_t begin = std::size_t(chunk) * pairsOfChunk, end = std::min(count, begin + pairsOfChunk);
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
 }
 
 /// The smallest of limit and body(i, smallest so far); only the result depends on no order if body does so.
@@ -96,27 +108,45 @@ void ContactBarrier::requireFree(const Matrix3Xd& x) const {
   }
 }
 
+double ContactBarrier::reachOf(const ContactPair& pair, const Eigen::VectorXd& distances) {
+  double first = 0, second = 0;
+  for (int i = 0; i < geometry::cornerCount(pair.kind); ++i) {
+    double& own = i < geometry::firstCornerCount(pair.kind) ? first : second;
+    own = std::max(own, distances[pair.nodes[i]]);
+  }
+  return first + second;
+}
+
 void ContactBarrier::findCandidates(const Matrix3Xd& x) {
   assert(x.cols() == restPositions_.cols());
   // Found with a margin, they stay valid until two nodes together have moved farther than that.
   const double margin = options_.range;
   if (candidatesAt_.cols() == x.cols() && (x - candidatesAt_).colwise().norm().maxCoeff() <= 0.5 * margin) return;
-  candidates_ = primitives_.nearPairs(x, x, options_.separation + options_.range + margin);
+  std::vector<ContactPair> pairs = primitives_.nearPairs(x, x, options_.separation + options_.range + margin);
   // So that sums do not depend on where the candidates were found.
-  std::sort(candidates_.begin(), candidates_.end());
+  std::sort(pairs.begin(), pairs.end());
+  candidates_.resize(pairs.size());
+  forEachInChunks(pairs.size(), [&](std::size_t i) {
+    const double gap = gapOf(pairs[i], geometry::closestPoints(pairs[i].kind, cornersOf(pairs[i], x)));
+    candidates_[i] = {pairs[i], gap, gap};
+  });
   candidatesAt_ = x;
 }
 
 void ContactBarrier::update(const Matrix3Xd& x) {
   active_.clear();
   finite_ = x.allFinite();
+  updatedAt_ = x;
   if (!finite_ || x.cols() == 0) return;
   findCandidates(x);
+  const Eigen::VectorXd moved = (x - candidatesAt_).colwise().norm();
   active_ = gatherInChunks<ActivePair>(candidates_.size(), [&](std::size_t i, std::vector<ActivePair>& active) {
-    const ContactPair& pair = candidates_[i];
+    auto& [pair, gapWhereFound, least] = candidates_[i];
+    least = gapWhereFound - reachOf(pair, moved);
+    if (least >= options_.range) return;
     const geometry::Corners corners = cornersOf(pair, x);
     const auto closest = geometry::closestPoints(pair.kind, corners);
-    const double gap = gapOf(pair, closest);
+    const double gap = least = gapOf(pair, closest);
     if (!(gap < options_.range)) return;
     const bool edges = pair.kind == SimplexPair::edgeEdge;
     const double scale = edges ? geometry::edgeMollifierScale(cornersOf(pair, restPositions_)) : 0;
@@ -139,11 +169,11 @@ void ContactBarrier::addGradient(Matrix3Xd& gradient) const {
   }
 }
 
-void ContactBarrier::addHessian(std::vector<ContactBlock>& blocks) const {
+void ContactBarrier::addHessian(std::vector<ContactBlock>& blocks, double convexity) const {
   const auto added = gatherInChunks<ContactBlock>(active_.size(), [&](std::size_t k, std::vector<ContactBlock>& part) {
     const auto& [pair, element] = active_[k];
     if (!(element.gap > 0)) return;
-    const geometry::CornerMatrix hessian = element.positiveHessian();
+    const geometry::CornerMatrix hessian = element.hessian(convexity);
     for (int i = 0; i < geometry::cornerCount(pair.kind); ++i)
       for (int j = 0; j < geometry::cornerCount(pair.kind); ++j) {
         const int row = pair.nodes[i], column = pair.nodes[j];
@@ -153,6 +183,18 @@ void ContactBarrier::addHessian(std::vector<ContactBlock>& blocks) const {
       }
   });
   blocks.insert(blocks.end(), added.begin(), added.end());
+}
+
+std::vector<std::array<int, 2>> ContactBarrier::coupledNodes(double margin) const {
+  std::vector<std::array<int, 2>> couples;
+  for (const auto& [pair, gapWhereFound, gap] : candidates_) {
+    if (gap >= options_.range + margin) continue;
+    for (int i = 0; i < geometry::cornerCount(pair.kind); ++i)
+      for (int j = 0; j < i; ++j)
+        if (std::max(pair.nodes[i], pair.nodes[j]) < primitives_.deformableCount())
+          couples.push_back({pair.nodes[i], pair.nodes[j]});
+  }
+  return couples;
 }
 
 std::vector<Contact> ContactBarrier::contacts() const {
@@ -169,10 +211,22 @@ std::vector<Contact> ContactBarrier::contacts() const {
 double ContactBarrier::largestStep(const Matrix3Xd& x, const Matrix3Xd& dx) const {
   assert(x.cols() == restPositions_.cols() && dx.cols() == x.cols());
   if (!x.allFinite() || !dx.allFinite()) return 0;
-  const auto pairs = primitives_.nearPairs(x, x + dx, options_.separation);
-  return smallestInChunks(pairs.size(), 1, [&](std::size_t i, double smallest) {
-    return geometry::safeFraction(pairs[i].kind, cornersOf(pairs[i], x), cornersOf(pairs[i], dx),
-                                  primitives_.radiiOf(pairs[i]) + options_.separation, smallest, 0.1 * options_.range);
+  const auto fractionOf = [&](const ContactPair& pair, double smallest) {
+    return geometry::safeFraction(pair.kind, cornersOf(pair, x), cornersOf(pair, dx),
+                                  primitives_.radiiOf(pair) + options_.separation, smallest, 0.1 * options_.range);
+  };
+  // Whatever is no candidate has a gap of twice the range at least where these were found.
+  const auto farthest = [&](const Matrix3Xd& at) { return (at - candidatesAt_).colwise().norm().maxCoeff(); };
+  const bool updatedHere = x.cols() > 0 && updatedAt_.cols() == x.cols() && updatedAt_ == x;
+  if (!updatedHere || farthest(x + dx) > options_.range) {
+    const auto pairs = primitives_.nearPairs(x, x + dx, options_.separation);
+    return smallestInChunks(
+        pairs.size(), 1, [&](std::size_t i, double smallest) { return fractionOf(pairs[i], smallest); });
+  }
+  const Eigen::VectorXd steps = dx.colwise().norm();
+  return smallestInChunks(candidates_.size(), 1, [&](std::size_t i, double smallest) {
+    const auto& [pair, gapWhereFound, gap] = candidates_[i];
+    return reachOf(pair, steps) < keptAside * gap ? 1.0 : fractionOf(pair, smallest);
   });
 }
 

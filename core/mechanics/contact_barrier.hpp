@@ -53,14 +53,19 @@ class ContactBarrier {
   double value() const;
   /// Adds to one column a deformable node [N]; other columns are left as they are. Pairs without a gap are left out.
   void addGradient(Eigen::Matrix3Xd& gradient) const;
-  /// Appends the blocks of all pairs between deformable nodes; each pair's Hessian is made positive semidefinite first.
-  void addHessian(std::vector<ContactBlock>& blocks) const;
+  /// Appends the blocks of all pairs between deformable nodes, of each pair's Hessian with its negative eigenvalues
+  /// taken 1 - convexity times (see ContactElement).
+  void addHessian(std::vector<ContactBlock>& blocks, double convexity = 1) const;
+  /// Each two deformable nodes that a pair couples whose gap is below the range plus `margin` [m] (at most the range),
+  /// in no order and more than once: where blocks of the Hessian are, and may be before anything has moved far.
+  std::vector<std::array<int, 2>> coupledNodes(double margin) const;
   /// All active pairs, sorted.
   std::vector<Contact> contacts() const;
 
   /// A fraction in (0, 1] of the step from x to x + dx (bodies included) such that no pair's gap gets to 0 on the way.
   /// If it is not 1, the gap of the pair that limits it shrinks to a tenth, and to a tenth of the range. 0 if a gap is
-  /// not above 0 at x, or if a coordinate is not finite.
+  /// not above 0 at x, or if a coordinate is not finite. Cheap while all stays within the range of where the last
+  /// update was.
   double largestStep(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& dx) const;
 
   /// The smallest gap of all pairs [m], negative if they are nearer than they may be (not below minus the radii and the
@@ -71,6 +76,8 @@ class ContactBarrier {
   geometry::Corners cornersOf(const ContactPair& pair, const Eigen::Matrix3Xd& x) const;
   double gapOf(const ContactPair& pair, const geometry::ClosestPoints& closest) const;
   void findCandidates(const Eigen::Matrix3Xd& x);
+  /// By how much the gap of a pair can shrink at most if its nodes move as far as `distances` say [m].
+  static double reachOf(const ContactPair& pair, const Eigen::VectorXd& distances);
 
   struct ActivePair {
     ContactPair pair;
@@ -80,8 +87,15 @@ class ContactBarrier {
   ContactPrimitives primitives_;
   Eigen::Matrix3Xd restPositions_;
   ContactOptions options_;
-  std::vector<ContactPair> candidates_;
+  struct Candidate {
+    ContactPair pair;
+    double gapWhereFound;  ///< at candidatesAt_ [m]
+    double gap;            ///< not above that at updatedAt_ [m]
+  };
+
+  std::vector<Candidate> candidates_;
   Eigen::Matrix3Xd candidatesAt_;  ///< positions for which candidates_ were found
+  Eigen::Matrix3Xd updatedAt_;     ///< those of the last update
   std::vector<ActivePair> active_;
   bool finite_ = true;  ///< the positions of the last update
 };

@@ -27,8 +27,9 @@ struct ContactElement {
   double value() const;                     ///< [J]
   geometry::CornerVector gradient() const;  ///< [N]
   Eigen::Vector3d force() const;            ///< on the first simplex [N]
-  /// The positive semidefinite matrix nearest to the Hessian in the Frobenius norm [N/m].
-  geometry::CornerMatrix positiveHessian() const;
+  /// The Hessian with its negative eigenvalues taken 1 - convexity times [N/m]: 0 gives the Hessian itself, 1 the
+  /// positive semidefinite matrix nearest to it in the Frobenius norm.
+  geometry::CornerMatrix hessian(double convexity) const;
 
  private:
   double mollifier(geometry::CornerVector* gradient, geometry::CornerMatrix* hessian) const;

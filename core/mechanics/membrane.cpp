@@ -42,14 +42,14 @@ MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int,
 }
 
 template <int dimension>
-std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles& triangles,
+std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles& triangles, const Triangles& corners,
                                              const ShellMaterial& material, const TriangleFactors& factors) {
   std::vector<MembraneElement<dimension>> elements;
   std::vector<std::array<int, 3 * dimension>> coordinates;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& triangle = triangles[t];
     const double factor = factorOf(factors.stiffness, t) * factorOf(factors.thickness, t);
-    elements.push_back(makeElement<dimension>(rest, triangle, material, factor));
+    elements.push_back(makeElement<dimension>(rest, corners[t], material, factor));
     auto& indices = coordinates.emplace_back();
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < dimension; ++axis)
@@ -61,12 +61,14 @@ std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles
 }  // namespace
 
 std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPositions, const Triangles& triangles,
-                                           const ShellMaterial& material, const TriangleFactors& factors) {
+                                           const ShellMaterial& material, const TriangleFactors& factors,
+                                           const Triangles& restTriangles) {
   requireElasticMaterial(material);
-  requireTriangles(dimension, restPositions, triangles);
+  const Triangles& corners = restCorners(triangles, restTriangles);
+  requireTriangles(dimension, restPositions, corners);
   requireTriangleFactors(factors, triangles);
-  return dimension == 2 ? makeMembraneOf<2>(restPositions, triangles, material, factors)
-                        : makeMembraneOf<3>(restPositions, triangles, material, factors);
+  return dimension == 2 ? makeMembraneOf<2>(restPositions, triangles, corners, material, factors)
+                        : makeMembraneOf<3>(restPositions, triangles, corners, material, factors);
 }
 
 }  // namespace pliant::mechanics

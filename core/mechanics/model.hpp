@@ -67,7 +67,7 @@ struct AttachmentPoint {
   bool operator==(const AttachmentPoint& other) const { return terms == other.terms && constant == other.constant; }
 };
 
-/// Where the coordinates of one geometry of the scene stand, and what to draw of it.
+/// Where the coordinates of one geometry of the scene stand, less nodes sewn to one before it, and what to draw of it.
 struct DisplayPart {
   std::string name;
   int firstNode = 0;

@@ -23,10 +23,15 @@ struct TriangleFactors {
   std::span<const double> thickness = {};
 };
 
+/// In what follows the corners of `triangles` rest at those `restPositions`, unless `restTriangles` are given: then
+/// corner i of triangle t rests at restPositions of restTriangles[t][i], and a node may rest in several places, as on
+/// the seams of a garment, which its flat pattern is cut along.
+
 /// Constant-strain triangles with a St. Venant-Kirchhoff material in plane stress, in 2 or 3 dimensions
 /// (MembraneElement). Throws base::InputError for a material, factor or triangle that makes no sense.
 std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPositions, const Triangles& triangles,
-                                           const ShellMaterial& material, const TriangleFactors& factors = {});
+                                           const ShellMaterial& material, const TriangleFactors& factors = {},
+                                           const Triangles& restTriangles = {});
 
 /// Discrete shells (Grinspun et al. 2003) in 3 dimensions: one dihedral-angle spring an interior edge,
 ///   E = Σ ½ D |e|²/(A₁ + A₂) (θ - θ₀)²,  D = Y h³ / (12 (1 - ν²)),
@@ -36,14 +41,31 @@ std::shared_ptr<const Energy> makeMembrane(int dimension, const Vector& restPosi
 /// its own, so what a mesh does beyond that is its own, whatever the material's ν: equilateral triangles bend like a
 /// plate with ν = -1/3 (a free narrow strip has 8/9 D, where the plate has (1 - ν²) D); a strip of square cells has
 /// about 4/5 D, less if cells are shorter than wide, down to D/2; irregular meshes scatter. Where its triangles differ,
-/// an edge has the mean D of both, weighted by area. Null if there is no interior edge. Throws base::InputError.
+/// an edge has the mean D of both, weighted by area. A seam, an edge that rests in two places, is ironed flat: θ₀ = 0,
+/// whatever lies between these places, and |e| is the mean of both lengths. Null if there is no interior edge. Throws
+/// base::InputError.
 std::shared_ptr<const Energy> makeHingeBending(const Vector& restPositions, const Triangles& triangles,
-                                               const ShellMaterial& material, const TriangleFactors& factors = {});
+                                               const ShellMaterial& material, const TriangleFactors& factors = {},
+                                               const Triangles& restTriangles = {});
+
+/// A shell of one material that may be sewn to others.
+struct ShellPanel {
+  Triangles triangles;
+  Vector restPositions;
+  Triangles restTriangles;  ///< as above
+  ShellMaterial material;
+  std::vector<double> stiffnessFactors, thicknessFactors;  ///< as in TriangleFactors
+};
+
+/// The bending of makeHingeBending over the edges on which two panels meet, all of them seams. Panels of the same
+/// triangles count as one that is as stiff as all. Null if there is no such edge. Throws base::InputError.
+std::shared_ptr<const Energy> makeSeamBending(const std::vector<ShellPanel>& panels);
 
 enum class MassMatrix { lumped, consistent };
 
 /// Adds the triangles' mass (density * thickness * area) to `entries`, on all coordinates. Throws base::InputError.
 void addShellMass(int dimension, const Vector& restPositions, const Triangles& triangles, const ShellMaterial& material,
-                  MassMatrix kind, std::vector<Eigen::Triplet<double>>& entries, const TriangleFactors& factors = {});
+                  MassMatrix kind, std::vector<Eigen::Triplet<double>>& entries, const TriangleFactors& factors = {},
+                  const Triangles& restTriangles = {});
 
 }  // namespace pliant::mechanics

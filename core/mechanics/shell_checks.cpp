@@ -33,6 +33,14 @@ void requireTriangles(int dimension, const Vector& restPositions, const Triangle
   }
 }
 
+const Triangles& restCorners(const Triangles& triangles, const Triangles& restTriangles) {
+  if (restTriangles.empty()) return triangles;
+  if (restTriangles.size() != triangles.size())
+    throw base::InputError("", "there are " + std::to_string(restTriangles.size()) + " triangles at rest for " +
+                                   std::to_string(triangles.size()) + " triangles");
+  return restTriangles;
+}
+
 void requireTriangleFactors(const TriangleFactors& factors, const Triangles& triangles) {
   requireFactors(factors.stiffness, triangles.size());
   requireFactors(factors.thickness, triangles.size());

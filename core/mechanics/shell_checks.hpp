@@ -10,6 +10,10 @@ void requireElasticMaterial(const ShellMaterial& material);
 /// Finite positions, node indices in range, no triangle of zero area. Throws base::InputError naming the triangle.
 void requireTriangles(int dimension, const Vector& restPositions, const Triangles& triangles);
 
+/// Where corners rest: `restTriangles`, one for each triangle, or `triangles` themselves if there are none. Throws
+/// base::InputError if the numbers differ.
+const Triangles& restCorners(const Triangles& triangles, const Triangles& restTriangles);
+
 /// As many factors as triangles, or none, all above 0. Throws base::InputError.
 void requireTriangleFactors(const TriangleFactors& factors, const Triangles& triangles);
 

@@ -54,6 +54,7 @@ class ClothBuilder {
     problem_.selfContact = json_["contact"]["self_contact"];
     finishSheet();
     locate("/elements", [&] { checkClothProblem(problem_); });
+    checkSeams();
     return std::make_shared<const cloth::ClothProblem>(std::move(problem_));
   }
 
@@ -146,8 +147,7 @@ class ClothBuilder {
       throw InputError(pointer + "/element", quote(entry["element"].get<std::string>()) + " is no shell or membrane.");
     const PlacedGeometry& geometry = geometryNamed((*element)["geometry"]);
     const std::size_t index = static_cast<std::size_t>(element - elements.begin());
-    const mechanics::Vector rest =
-        restShapeOf(*element, childPointer("/elements", index), geometry, scene_.directory(), model_->restPositions);
+    const RestShape rest = restShapeOf(*element, childPointer("/elements", index), geometry, scene_.directory());
     const cloth::StretchLimit limit = limitOf(entry);
     if (const double smallest = cloth::smallestStretch(limit); smallest < 1)
       throw InputError(pointer, "The rest shape breaks this limit: its smallest stretch is " +
@@ -155,18 +155,18 @@ class ClothBuilder {
     const int number = static_cast<int>(problem_.sheet.limits.size());
     problem_.sheet.constraints.push_back(constraintsOf(entry, limit));
     problem_.sheet.limits.push_back(limit);
-    const std::vector<char> chosen = nodesOfGroup(entry, pointer, geometry);
+    const std::set<int> chosen = nodesOfGroup(entry, pointer, geometry);
     const std::size_t first = firstTriangle_.at(geometry.name);
     bool any = false;
     for (std::size_t t = 0; t < geometry.mesh.triangles.size(); ++t) {
-      const auto& corners = geometry.mesh.triangles[t];
-      if (!std::all_of(
-              corners.begin(), corners.end(), [&](int node) { return chosen[static_cast<std::size_t>(node)]; }))
-        continue;
       cloth::SheetTriangle& triangle = problem_.sheet.triangles[first + t];
+      const auto& corners = triangle.nodes;
+      if (entry.contains("group") &&
+          !std::all_of(corners.begin(), corners.end(), [&](int node) { return chosen.contains(node); }))
+        continue;
       Eigen::Matrix3d points;
       for (int corner = 0; corner < 3; ++corner)
-        points.col(corner) = rest.segment<3>(3 * triangle.nodes[static_cast<std::size_t>(corner)]);
+        points.col(corner) = rest.positions.segment<3>(3 * rest.triangles[t][static_cast<std::size_t>(corner)]);
       triangle.gradients = cloth::shapeGradients(points, spaceVector(entry["direction"]));
       triangle.limit = number;
       any = true;
@@ -174,14 +174,30 @@ class ClothBuilder {
     if (!any) throw InputError(pointer + "/group", "No triangle has all its nodes in this group.");
   }
 
-  std::vector<char> nodesOfGroup(const Json& entry, const std::string& pointer, const PlacedGeometry& geometry) const {
-    const auto count = static_cast<std::size_t>(geometry.nodeCount());
-    if (!entry.contains("group")) return std::vector<char>(count, 1);
+  std::set<int> nodesOfGroup(const Json& entry, const std::string& pointer, const PlacedGeometry& geometry) const {
+    if (!entry.contains("group")) return {};
     const Json selection{{"geometry", geometry.name}, {"group", entry["group"]}};
-    std::vector<char> chosen(count, 0);
-    for (const int node : selectNodes(selection, pointer, geometries_))
-      chosen[static_cast<std::size_t>(node - geometry.firstNode)] = 1;
-    return chosen;
+    const std::vector<int> nodes = selectNodes(selection, pointer, geometries_);
+    return {nodes.begin(), nodes.end()};
+  }
+
+  /// A projection with contact starts inside the limits, so what closing the seams has stretched it cannot take back.
+  void checkSeams() const {
+    if (json_["seams"].empty() || (problem_.bodies.empty() && !problem_.selfContact)) return;
+    const Eigen::VectorXd ratios =
+        cloth::stretchRatios(problem_.sheet, model_->restPositions.reshaped(3, model_->nodeCount()));
+    for (const auto& [name, first] : firstTriangle_) {
+      const PlacedGeometry& geometry = geometryNamed(name);
+      for (std::size_t t = 0; t < geometry.mesh.triangles.size(); ++t) {
+        const auto& nodes = geometry.mesh.triangles[t];
+        const double ratio = ratios[static_cast<Eigen::Index>(first + t)];
+        if (ratio >= 1 && geometry.mesh.points(Eigen::all, nodes) != geometry.unsewn(Eigen::all, nodes))
+          throw InputError("/seams", "Closing the seams stretches triangle " + std::to_string(t) + " of the geometry " +
+                                         quote(name) + " to " + base::formatQuantity(ratio, {}) +
+                                         " times its limit, and with contact limits must hold from the start; put the "
+                                         "edges nearer to each other.");
+      }
+    }
   }
 
   void addBody(const Json& entry, const std::string& pointer) {

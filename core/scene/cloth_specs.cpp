@@ -65,11 +65,24 @@ ParameterSpec file(std::string key, std::string description) {
   return path;
 }
 
-ParameterSpec scale() {
-  return withDefault(positive(number("scale", "", "Metres per unit of the file.", dimensions::none)), 1);
+ParameterSpec scale(std::string description) {
+  return withDefault(positive(number("scale", "", std::move(description), dimensions::none)), 1);
 }
 
 }  // namespace
+
+ParameterSpec seamSpecs() {
+  return object(
+      "seam",
+      "Sews two edges of surfaces together, node to node: sewn nodes become one, which starts in their middle. Both "
+      "edges are connected pieces of a boundary with as many nodes as each other. They may belong to one geometry.",
+      {name(), selection("from", "Nodes of one edge."), selection("to", "Nodes of the other."),
+       withDefault(
+           boolean("reverse",
+                   "Edges are joined the way round on which their nodes are nearer to each other; the other way "
+                   "round if true."),
+           false)});
+}
 
 ParameterSpec stretchLimitSpecs() {
   return variant(
@@ -108,7 +121,7 @@ ParameterSpec bodySpecs() {
               {name(), inSpace("from", "The centre of one end.", dimensions::length),
                inSpace("to", "The centre of the other.", dimensions::length), radius, path}),
        object("mesh", "Triangles read from an STL, OBJ, PLY or glTF file.",
-              {name(), file("file", "The file, relative to the scene."), scale(),
+              {name(), file("file", "The file, relative to the scene."), scale("Metres per unit of the file."),
                withDefault(inSpace("position", "Where the file's origin is put.", dimensions::length), {0, 0, 0}),
                optional(object(
                    "rotation", "Turns it about its origin before it is put in place.",
@@ -150,14 +163,20 @@ ParameterSpec windSpec() {
 }
 
 ParameterSpec patternSpec() {
-  ParameterSpec spec = object("pattern",
-                              "Another rest shape with the same triangles in the same order, such as a flat piece of a "
-                              "garment; the geometry is "
-                              "then only where it starts.",
-                              {optional(file("path", "A mesh file, relative to the scene.")), scale(),
-                               optional(list("points", "Rest positions of the geometry's nodes, in their order.",
-                                             inSpace("", "A position.", dimensions::length), 1, mostPoints))});
-  spec.exactlyOne = {"path", "points"};
+  ParameterSpec spec = object(
+      "pattern",
+      "Another rest shape with the same triangles in the same order, such as the flat pieces of a garment; the "
+      "geometry "
+      "is then only where it starts. Where a node rests in several places the sheet is sewn together from pieces: it "
+      "bends over such a seam as if ironed flat.",
+      {optional(file("path", "A mesh file, relative to the scene.")),
+       optional(choice(
+           "from", "The texture coordinates of the geometry's own file, as programs that design garments write them.",
+           {"texture_coordinates"})),
+       scale("Metres per unit of the file, or of its texture coordinates."),
+       optional(list("points", "Rest positions of the geometry's nodes, in their order.",
+                     inSpace("", "A position.", dimensions::length), 1, mostPoints))});
+  spec.exactlyOne = {"path", "from", "points"};
   return optional(spec);
 }
 

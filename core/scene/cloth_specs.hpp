@@ -6,6 +6,8 @@
 
 namespace pliant::scene {
 
+/// Entries of "seams".
+base::ParameterSpec seamSpecs();
 /// Entries of "stretch_limits".
 base::ParameterSpec stretchLimitSpecs();
 /// Entries of "bodies".

@@ -27,10 +27,14 @@ mechanics::ShellMaterial shellMaterial(const ElementContext& context) {
   return {material["young_modulus"], material["poisson_ratio"], material["density"], context.entry["thickness"]};
 }
 
-mechanics::Vector restShape(const ElementContext& context) {
+RestShape restShape(const ElementContext& context) {
   if (context.entry.contains("pattern") && context.model.dimension != 3)
     throw InputError(context.pointer + "/pattern", "A pattern needs a scene of dimension 3.");
-  return restShapeOf(context.entry, context.pointer, context.geometry, context.directory, context.model.restPositions);
+  RestShape rest = restShapeOf(context.entry, context.pointer, context.geometry, context.directory);
+  const int dimension = context.model.dimension;
+  if (dimension == 2)
+    rest.positions = rest.positions.reshaped(3, rest.positions.size() / 3).topRows(2).reshaped().eval();
+  return rest;
 }
 
 /// The factors of an entry, which live as long as this.
@@ -60,16 +64,22 @@ void addMembrane(const ElementContext& context) {
   const mechanics::Triangles triangles = trianglesOf(context);
   const mechanics::ShellMaterial material = shellMaterial(context);
   const Factors factors(context, triangles.size());
-  const mechanics::Vector rest = restShape(context);
-  model.energies.push_back(mechanics::makeMembrane(model.dimension, rest, triangles, material, factors));
-  mechanics::addShellMass(model.dimension, rest, triangles, material, context.massMatrix, context.mass, factors);
+  const RestShape rest = restShape(context);
+  model.energies.push_back(
+      mechanics::makeMembrane(model.dimension, rest.positions, triangles, material, factors, rest.triangles));
+  mechanics::addShellMass(
+      model.dimension, rest.positions, triangles, material, context.massMatrix, context.mass, factors, rest.triangles);
 }
 
 void addBending(const ElementContext& context) {
   const mechanics::Triangles triangles = trianglesOf(context);
-  auto bending = mechanics::makeHingeBending(
-      restShape(context), triangles, shellMaterial(context), Factors(context, triangles.size()));
+  const mechanics::ShellMaterial material = shellMaterial(context);
+  const Factors factors(context, triangles.size());
+  RestShape rest = restShape(context);
+  auto bending = mechanics::makeHingeBending(rest.positions, triangles, material, factors, rest.triangles);
   if (bending) context.model.energies.push_back(std::move(bending));
+  context.panels.push_back({triangles, std::move(rest.positions), std::move(rest.triangles), material,
+                            factors.stiffness, factors.thickness});
 }
 
 void addShell(const ElementContext& context) {

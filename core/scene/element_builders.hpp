@@ -25,12 +25,13 @@ struct ElementContext {
   const Json* material;        ///< the entry's material, normalised; null for elements without one
   const PlacedGeometry& geometry;
   mechanics::MassMatrix massMatrix;
-  const std::set<int>& heldNodes;             ///< locked wholly, or driven: these clamp the rods that meet there
-  mechanics::Model& model;                    ///< energies and scalar coordinates are added to it
-  mechanics::DisplayPart& part;               ///< of the geometry
-  std::vector<Eigen::Triplet<double>>& mass;  ///< on all coordinates [kg]
-  std::vector<NodeFrame>& frames;             ///< of rods
-  const std::filesystem::path& directory;     ///< of the scene
+  const std::set<int>& heldNodes;              ///< locked wholly, or driven: these clamp the rods that meet there
+  mechanics::Model& model;                     ///< energies and scalar coordinates are added to it
+  mechanics::DisplayPart& part;                ///< of the geometry
+  std::vector<Eigen::Triplet<double>>& mass;   ///< on all coordinates [kg]
+  std::vector<NodeFrame>& frames;              ///< of rods
+  std::vector<mechanics::ShellPanel>& panels;  ///< of shells that bend
+  const std::filesystem::path& directory;      ///< of the scene
 };
 
 using ElementBuilder = void (*)(const ElementContext&);

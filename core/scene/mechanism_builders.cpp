@@ -25,7 +25,7 @@ std::vector<int> jointsOf(const Json& entry, const std::string& pointer, const P
       throw InputError(childPointer(pointer + "/joints", i), "There is no node " + std::to_string(node) +
                                                                  "; the geometry " + quote(geometry.name) + " has " +
                                                                  std::to_string(geometry.nodeCount()) + ".");
-    joints.push_back(geometry.firstNode + node);
+    joints.push_back(geometry.nodes[static_cast<std::size_t>(node)]);
   }
   return joints;
 }
@@ -64,8 +64,8 @@ SpringEnd endOf(const MechanismContext& context, const Json& end, const std::str
     throw InputError(pointer + "/link", "The element " + quote(end["link"].get<std::string>()) + " is no link.");
   const auto geometry = std::find_if(context.geometries.begin(), context.geometries.end(),
                                      [&](const PlacedGeometry& g) { return g.name == (*link)["geometry"]; });
-  const int a = geometry->firstNode + (*link)["joints"][0].get<int>();
-  const int b = geometry->firstNode + (*link)["joints"][1].get<int>();
+  const int a = geometry->nodes[(*link)["joints"][0].get<std::size_t>()];
+  const int b = geometry->nodes[(*link)["joints"][1].get<std::size_t>()];
   const Vector& rest = context.model.restPositions;
   const auto at = [&](double along, double across) {
     return mechanics::attachedToLink(dimension, rest, a, b, along, across);

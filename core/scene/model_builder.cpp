@@ -82,20 +82,21 @@ class Builder {
 
   const PlacedGeometry& geometryOf(int node) const {
     return *std::find_if(geometries_.begin(), geometries_.end(),
-                         [&](const PlacedGeometry& g) { return node < g.firstNode + g.nodeCount(); });
+                         [&](const PlacedGeometry& g) { return node < g.firstNode + g.ownCount; });
   }
 
   Vector restOf(int node) const { return model_.restPositions.segment(node * dimension_, dimension_); }
 
   void addNodes() {
     const PlacedGeometry& last = geometries_.back();
-    model_.restPositions.resize((last.firstNode + last.nodeCount()) * dimension_);
+    model_.restPositions.resize((last.firstNode + last.ownCount) * dimension_);
     for (const PlacedGeometry& geometry : geometries_) {
-      model_.restPositions.segment(geometry.firstNode * dimension_, geometry.nodeCount() * dimension_) =
-          geometry.mesh.points.topRows(dimension_).reshaped();
+      for (int node = 0; node < geometry.nodeCount(); ++node)
+        model_.restPositions.segment(geometry.nodes[static_cast<std::size_t>(node)] * dimension_, dimension_) =
+            geometry.mesh.points.col(node).head(dimension_);
       model_.parts.push_back({geometry.name,
                               geometry.firstNode,
-                              geometry.nodeCount(),
+                              geometry.ownCount,
                               geometry.global(geometry.mesh.triangles),
                               geometry.global(geometry.tetrahedra),
                               {},
@@ -131,8 +132,12 @@ class Builder {
           geometries_.begin(), geometries_.end(), [&](const PlacedGeometry& g) { return g.name == entry["geometry"]; });
       mechanics::DisplayPart& part = model_.parts[static_cast<std::size_t>(geometry - geometries_.begin())];
       elementBuilders().at(entry["type"])(
-          {entry, pointer, material, *geometry, kind, held, model_, part, mass, frames_, directory_});
+          {entry, pointer, material, *geometry, kind, held, model_, part, mass, frames_, panels_, directory_});
     });
+    if (!scene_["seams"].empty())
+      locate("/seams", [&] {
+        if (auto bending = mechanics::makeSeamBending(panels_)) model_.energies.push_back(std::move(bending));
+      });
     mechanics::SparseMatrix matrix(model_.restPositions.size(), model_.restPositions.size());
     matrix.setFromTriplets(mass.begin(), mass.end());
     model_.elementMass = std::make_shared<const mechanics::SparseMatrix>(std::move(matrix));
@@ -240,7 +245,8 @@ class Builder {
 
   std::string nodeText(int node) const {
     const PlacedGeometry& geometry = geometryOf(node);
-    return "Node " + std::to_string(node - geometry.firstNode) + " of the geometry " + quote(geometry.name);
+    const auto local = std::find(geometry.nodes.begin(), geometry.nodes.end(), node) - geometry.nodes.begin();
+    return "Node " + std::to_string(local) + " of the geometry " + quote(geometry.name);
   }
 
   /// A free node without mass and without elements would leave its motion undetermined.
@@ -267,6 +273,7 @@ class Builder {
   mechanics::Model model_;
   std::set<int> driven_;
   std::vector<NodeFrame> frames_;
+  std::vector<mechanics::ShellPanel> panels_;
 };
 
 mechanics::Model buildWithoutSceneParameters(const Scene& scene) { return Builder(scene).build(); }

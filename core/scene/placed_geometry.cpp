@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "core/geometry/mesh_generators.hpp"
 #include "core/geometry/tet_mesh.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/seams.hpp"
 
 namespace pliant::scene {
 
@@ -172,10 +174,15 @@ std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
         geometry.mesh = makeSurface(entries[i], pointer, scene.directory());
     });
     place(entries[i], dimension, geometry.mesh.points, pointer);
-    nodeCount += geometry.nodeCount();
+    geometry.unsewn = geometry.mesh.points;
+    geometry.ownCount = geometry.nodeCount();
+    geometry.nodes.resize(static_cast<std::size_t>(geometry.ownCount));
+    std::iota(geometry.nodes.begin(), geometry.nodes.end(), nodeCount);
+    nodeCount += geometry.ownCount;
     geometries.push_back(std::move(geometry));
   }
   if (nodeCount == 0) throw InputError("/geometry", "The scene has no nodes.");
+  sewSeams(scene.normalized()["seams"], geometries);
   return geometries;
 }
 
@@ -210,9 +217,9 @@ std::vector<int> selectNodes(const Json& selection, const std::string& pointer,
   } else {
     for (const int node : nodesInBox(selection["box"], pointer, geometry)) nodes.insert(node);
   }
-  std::vector<int> result(nodes.begin(), nodes.end());
-  for (int& node : result) node += geometry.firstNode;
-  return result;
+  std::set<int> result;
+  for (const int node : nodes) result.insert(geometry.nodes[static_cast<std::size_t>(node)]);
+  return {result.begin(), result.end()};
 }
 
 int selectNode(const Json& selection, const std::string& pointer, const std::vector<PlacedGeometry>& geometries) {

@@ -231,6 +231,7 @@ ParameterSpec makeSceneSpec() {
        entries("elements", "Elastic bodies.", elementSpecs()),
        entries("point_masses", "Masses on nodes; each is a design parameter.", pointMasses()),
        entries("springs", "Springs.", springs()),
+       entries("seams", "Edges that are sewn together.", seamSpecs()),
        entries("stretch_limits", "How far cloth may stretch.", stretchLimitSpecs()),
        entries("boundary_conditions", "Nodes that cannot move.", boundaryConditions()),
        entries("bodies", "What cloth lies on.", bodySpecs()),

@@ -8,25 +8,10 @@ namespace pliant::solvers {
 
 namespace {
 
-/// Slacks start at least this large, where 1/2 is a bound that is not felt at all.
-constexpr double smallestStartingSlack = 0.0025;
-
-Packet maximum(const Packet& p, const Packet& q) {
-  return Packet::map(
-      [](const Packet::Register& x, const Packet::Register& y) -> Packet::Register { return x > y ? x : y; }, p, q);
-}
-
-double sumOf(const Packet& p) {
-  double sum = 0;
-  for (int lane = 0; lane < Packet::width; ++lane) sum += p[lane];
-  return sum;
-}
-
-double largestOf(const Packet& p) {
-  double largest = p[0];
-  for (int lane = 1; lane < Packet::width; ++lane) largest = std::max(largest, p[lane]);
-  return largest;
-}
+/// Slacks start at least this large, where 1/2 is a bound that is not felt at all. More directions than an element has
+/// degrees of freedom want more room.
+constexpr double smallestStartingSlack = 0.001;
+constexpr double smallestStartingDirectionSlack = 0.004;
 
 Packet absolute(const Packet& p) { return maximum(p, -p); }
 
@@ -36,35 +21,20 @@ Packet largestEigenvalue(const SymmetricPacket& p) {
   return 0.5 * p.trace() + sqrt(half * half + p.c * p.c);
 }
 
-/// The inverse of the longest step α with p + α dp positive semidefinite, at least 0; p is positive definite. It is
-/// minus the smallest eigenvalue of p^{-½} dp p^{-½}.
-Packet inverseStep(const SymmetricPacket& p, const SymmetricPacket& dp) {
-  const Packet inverseDeterminant = 1.0 / p.determinant();
-  const Packet half = 0.5 * dot(p.adjugate(), dp) * inverseDeterminant;
-  const Packet product = dp.determinant() * inverseDeterminant;
-  return sqrt(maximum(half * half - product, 0.0)) - half;
-}
-
-SymmetricPacket scaledOuter(const Packet& factor, const std::array<double, 2>& v) {
-  return {factor * (v[0] * v[0]), factor * (v[1] * v[1]), factor * (v[0] * v[1])};
-}
-
-Packet along(const SymmetricPacket& p, const std::array<double, 2>& v) {
-  return p.a * (v[0] * v[0]) + p.b * (v[1] * v[1]) + p.c * (2 * v[0] * v[1]);
-}
-
 SymmetricPacket identityMinus(const SymmetricPacket& p) { return {1.0 - p.a, 1.0 - p.b, -p.c}; }
 
 SymmetricPacket inverse(const SymmetricPacket& p) { return (1.0 / p.determinant()) * p.adjugate(); }
 
-/// p with its eigenvalues raised to at least `floor`.
-SymmetricPacket raiseEigenvalues(const SymmetricPacket& p, double floor) {
-  const Packet half = 0.5 * (p.a - p.b), mean = 0.5 * p.trace();
-  const Packet radius = sqrt(half * half + p.c * p.c);
-  const Packet high = maximum(mean + radius, floor), low = maximum(mean - radius, floor);
-  const Packet ratio = 0.5 * (high - low) / maximum(radius, 1e-300);
-  const Packet middle = 0.5 * (high + low);
-  return {middle + ratio * half, middle - ratio * half, ratio * p.c};
+/// Σ ‖F T Λ‖_* - ⟨F T Λ, F T⟩ by the metric of F T: ‖A‖_* of a matrix with two columns is sqrt(tr AᵀA + 2 sqrt det
+/// AᵀA).
+Packet supportGap(const SymmetricPacket& scaledMetric, const SymmetricPacket& multiplier) {
+  return sqrt(dot(scaledMetric, congruence(multiplier, {1.0, 1.0, 0.0})) +
+              2.0 * sqrt(maximum(scaledMetric.determinant(), 0.0)) * multiplier.determinant()) -
+         dot(multiplier, scaledMetric);
+}
+
+Packet supportGap(const Packet& squaredStretch, const Packet& multiplier) {
+  return multiplier * (sqrt(squaredStretch) - squaredStretch);
 }
 
 }  // namespace
@@ -102,19 +72,9 @@ ConeElements::ConeElements(const ConeConstraints& constraints, const std::vector
         const ConeElement& element = constraints.elements[e];
         group.element[lane] = real ? e : -1;
         mask[lane] = real ? 1 : 0;
-        constexpr int rows[6] = {0, 1, 2, 1, 2, 2}, columns[6] = {0, 1, 2, 0, 0, 1};
         for (int k = 0; k < 3; ++k) {
           group.nodes[k][lane] = element.nodes[k];
           for (int i = 0; i < 2; ++i) weights[k][i][lane] = real ? element.weights[k][i] : 0;
-        }
-        for (int k = 0; k < 6; ++k) {
-          const int row = vertexOfNode[element.nodes[rows[k]]], column = vertexOfNode[element.nodes[columns[k]]];
-          group.place[k][lane] = -1;
-          if (!real || row < 0 || column < 0) continue;
-          const math::BlockCholesky::Place place = cholesky.place(row, column);
-          group.place[k][lane] = place.offset;
-          group.stride[k][lane] = place.stride;
-          group.transposed[k][lane] = place.transposed;
         }
       }
       for (int k = 0; k < 3; ++k)
@@ -124,6 +84,22 @@ ConeElements::ConeElements(const ConeConstraints& constraints, const std::vector
     boundCount_ += static_cast<int>(members[b].size()) *
                    static_cast<int>(2 * bounds_[b].scalings.size() + bounds_[b].directions.size());
   }
+  locate(vertexOfNode, cholesky);
+}
+
+void ConeElements::locate(const std::vector<int>& vertexOfNode, const math::BlockCholesky& cholesky) {
+  constexpr int rows[6] = {0, 1, 2, 1, 2, 2}, columns[6] = {0, 1, 2, 0, 0, 1};
+  for (Group& group : groups_)
+    for (int k = 0; k < 6; ++k)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const int row = vertexOfNode[group.nodes[rows[k]][lane]], column = vertexOfNode[group.nodes[columns[k]][lane]];
+        group.place[k][lane] = -1;
+        if (group.element[lane] < 0 || row < 0 || column < 0) continue;
+        const math::BlockCholesky::Place place = cholesky.place(row, column);
+        group.place[k][lane] = place.offset;
+        group.stride[k][lane] = place.stride;
+        group.transposed[k][lane] = place.transposed;
+      }
 }
 
 MapPacket ConeElements::mapOf(const Group& group, const Positions& x) const {
@@ -185,13 +161,14 @@ void ConeElements::start(const Positions& x, double barrier, bool keep) {
     const Bounds& bounds = bounds_[group.bounds];
     for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
       Ellipse& cone = ellipses_[group.firstEllipse + k];
-      cone.s = raiseEigenvalues(0.5 * identityMinus(congruence(bounds.scalings[k], metric)), smallestStartingSlack);
+      cone.s = mapEigenvalues(0.5 * identityMinus(congruence(bounds.scalings[k], metric)),
+                              [](const Packet& slack) { return maximum(slack, smallestStartingSlack); });
       const SymmetricPacket own = barrier * inverse(cone.s);
       cone.l = keep ? cone.l + own : own;
     }
     for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
       Direction& cone = directions_[group.firstDirection + k];
-      cone.s = maximum(0.5 * (1.0 - along(metric, bounds.directions[k])), smallestStartingSlack);
+      cone.s = maximum(0.5 * (1.0 - along(metric, bounds.directions[k])), smallestStartingDirectionSlack);
       const Packet own = barrier / cone.s;
       cone.l = keep ? cone.l + own : own;
     }
@@ -237,7 +214,7 @@ double ConeElements::centre(const Positions& x, double barrier) {
 ConeElements::Linearization ConeElements::linearize(const Positions& x, Positions& forces, Positions& predictorForces,
                                                     math::BlockCholesky& cholesky) {
   Linearization result;
-  Packet complementarity = 0.0, residual = 0.0, squaredStretch = 0.0, supportGap = 0.0;
+  Packet complementarity = 0.0, residual = 0.0, squaredStretch = 0.0, gap = 0.0;
   for (Group& group : groups_) {
     group.f = mapOf(group, x);
     const SymmetricPacket metric = group.f.metric();
@@ -270,10 +247,7 @@ ConeElements::Linearization ConeElements::linearize(const Positions& x, Position
       complementarity += group.mask * dot(cone.l, cone.s);
       residual = maximum(residual, maximum(maximum(absolute(cone.r.a), absolute(cone.r.b)), absolute(cone.r.c)));
       squaredStretch = maximum(squaredStretch, largestEigenvalue(scaled));
-      // ‖A‖_* of a matrix with two columns is sqrt(tr AᵀA + 2 sqrt det AᵀA); here A = F T Λ.
-      supportGap += sqrt(dot(scaled, congruence(cone.l, {1.0, 1.0, 0.0})) +
-                         2.0 * sqrt(maximum(scaled.determinant(), 0.0)) * cone.l.determinant()) -
-                    dot(cone.l, scaled);
+      gap += supportGap(scaled, cone.l);
     }
     for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
       Direction& cone = directions_[group.firstDirection + k];
@@ -293,7 +267,7 @@ ConeElements::Linearization ConeElements::linearize(const Positions& x, Position
       complementarity += group.mask * cone.l * cone.s;
       residual = maximum(residual, absolute(cone.r));
       squaredStretch = maximum(squaredStretch, squared);
-      supportGap += cone.l * (sqrt(squared) - squared);
+      gap += supportGap(squared, cone.l);
     }
     Packet nodeForces[3][3], nodePredictor[3][3];
     addForce(group, group.f, multiplier, nodeForces);
@@ -305,8 +279,44 @@ ConeElements::Linearization ConeElements::linearize(const Positions& x, Position
   result.complementarity = sumOf(complementarity);
   result.residual = largestOf(residual);
   result.largestStretch = std::sqrt(largestOf(squaredStretch));
-  result.supportGap = sumOf(supportGap);
+  result.supportGap = sumOf(gap);
   return result;
+}
+
+ConeElements::Multipliers ConeElements::multipliers() const {
+  Multipliers result;
+  for (const Ellipse& cone : ellipses_) result.ellipses.push_back(cone.l);
+  for (const Direction& cone : directions_) result.directions.push_back(cone.l);
+  return result;
+}
+
+void ConeElements::setMultipliers(const Multipliers& multipliers, double factor) {
+  for (std::size_t k = 0; k < ellipses_.size(); ++k) ellipses_[k].l = factor * multipliers.ellipses[k];
+  for (std::size_t k = 0; k < directions_.size(); ++k) directions_[k].l = factor * multipliers.directions[k];
+}
+
+double ConeElements::addForces(const Multipliers& multipliers, const Positions& x, Positions& forces) const {
+  Packet gap = 0.0;
+  for (const Group& group : groups_) {
+    const MapPacket f = mapOf(group, x);
+    const SymmetricPacket metric = f.metric();
+    const Bounds& bounds = bounds_[group.bounds];
+    SymmetricPacket sum{0.0, 0.0, 0.0};
+    for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
+      const SymmetricPacket& own = multipliers.ellipses[group.firstEllipse + k];
+      sum += congruence(bounds.scalings[k], own);
+      gap += supportGap(congruence(bounds.scalings[k], metric), own);
+    }
+    for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
+      const Packet& own = multipliers.directions[group.firstDirection + k];
+      sum += scaledOuter(own, bounds.directions[k]);
+      gap += supportGap(along(metric, bounds.directions[k]), own);
+    }
+    Packet nodeForces[3][3];
+    addForce(group, f, sum, nodeForces);
+    scatter(group, nodeForces, forces);
+  }
+  return sumOf(gap);
 }
 
 void ConeElements::assemble(const Group& group, const SymmetricPacket& l, const Packet (&c)[6],
@@ -355,117 +365,6 @@ void ConeElements::assemble(const Group& group, const SymmetricPacket& l, const 
           for (int i = 0; i < 3; ++i) to[Eigen::Index{j} * stride + i] += block[j][i][lane];
       }
     }
-  }
-}
-
-double ConeElements::direct(const Positions& dx) {
-  Packet longest = 0.0;  // inverse of the step
-  for (Group& group : groups_) {
-    group.df = mapOf(group, dx);
-    const SymmetricPacket e = symmetricPart(group.f, group.df);
-    const Bounds& bounds = bounds_[group.bounds];
-    for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
-      Ellipse& cone = ellipses_[group.firstEllipse + k];
-      cone.ds = -(cone.r + cone.h + congruence(bounds.scalings[k], e));
-      cone.dl = cone.y - cone.l - congruence(cone.u, cone.ds);
-      longest = maximum(longest, maximum(inverseStep(cone.s, cone.ds), inverseStep(cone.l, cone.dl)));
-    }
-    for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
-      Direction& cone = directions_[group.firstDirection + k];
-      cone.ds = -(cone.r + cone.h + along(e, bounds.directions[k]));
-      cone.dl = cone.y - cone.l - cone.l / cone.s * cone.ds;
-      longest = maximum(longest, maximum(-cone.ds / cone.s, -cone.dl / cone.l));
-    }
-  }
-  return 1 / std::max(largestOf(longest), 1e-300);
-}
-
-double ConeElements::complementarityAfter(double step) const {
-  Packet sum = 0.0;
-  for (const Group& group : groups_) {
-    const Bounds& bounds = bounds_[group.bounds];
-    Packet own = 0.0;
-    for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
-      const Ellipse& cone = ellipses_[group.firstEllipse + k];
-      own += dot(cone.l + step * cone.dl, cone.s + step * cone.ds);
-    }
-    for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
-      const Direction& cone = directions_[group.firstDirection + k];
-      own += (cone.l + step * cone.dl) * (cone.s + step * cone.ds);
-    }
-    sum += group.mask * own;
-  }
-  return sumOf(sum);
-}
-
-void ConeElements::clearCorrection() {
-  for (Ellipse& cone : ellipses_) cone.h = cone.y = {0.0, 0.0, 0.0};
-  for (Direction& cone : directions_) cone.h = cone.y = 0.0;
-}
-
-void ConeElements::correct(double target, double weight, Positions& forces) {
-  for (Group& group : groups_) {
-    const SymmetricPacket change = 0.5 * weight * group.df.metric();
-    const Bounds& bounds = bounds_[group.bounds];
-    SymmetricPacket own{0.0, 0.0, 0.0}, product = own;
-    for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
-      Ellipse& cone = ellipses_[group.firstEllipse + k];
-      const SymmetricPacket& t = bounds.scalings[k];
-      cone.h = congruence(t, change);
-      const SymmetricPacket scaledProduct =
-          weight * symmetricProduct(congruence(cone.inverseG, cone.ds), congruence(cone.g, cone.dl));
-      const SymmetricPacket right{target - scaledProduct.a, target - scaledProduct.b, -scaledProduct.c};
-      cone.y = congruence(cone.inverseG, solveSymmetricProduct(cone.v, right));
-      own += congruence(t, congruence(cone.u, cone.r + cone.h) + cone.y);
-      product += congruence(t, cone.dl);
-    }
-    for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
-      Direction& cone = directions_[group.firstDirection + k];
-      const std::array<double, 2>& v = bounds.directions[k];
-      cone.h = along(change, v);
-      cone.y = (target - weight * cone.ds * cone.dl) / cone.s;
-      own += scaledOuter(cone.l / cone.s * (cone.r + cone.h) + cone.y, v);
-      product += scaledOuter(cone.dl, v);
-    }
-    Packet nodeForces[3][3];
-    addForce(group, group.f, own, nodeForces);
-    addForce(group, group.df, weight * product, nodeForces);
-    scatter(group, nodeForces, forces);
-  }
-}
-
-void ConeElements::keepDirection() {
-  for (Group& group : groups_) group.keptDf = group.df;
-  for (Ellipse& cone : ellipses_) {
-    cone.keptDs = cone.ds;
-    cone.keptDl = cone.dl;
-  }
-  for (Direction& cone : directions_) {
-    cone.keptDs = cone.ds;
-    cone.keptDl = cone.dl;
-  }
-}
-
-void ConeElements::restoreDirection() {
-  for (Group& group : groups_) group.df = group.keptDf;
-  for (Ellipse& cone : ellipses_) {
-    cone.ds = cone.keptDs;
-    cone.dl = cone.keptDl;
-  }
-  for (Direction& cone : directions_) {
-    cone.ds = cone.keptDs;
-    cone.dl = cone.keptDl;
-  }
-}
-
-void ConeElements::advance(double step) {
-  for (Ellipse& cone : ellipses_) {
-    cone.s += step * cone.ds;
-    cone.l += step * cone.dl;
-  }
-  for (Direction& cone : directions_) {
-    cone.s += step * cone.ds;
-    cone.l += step * cone.dl;
   }
 }
 

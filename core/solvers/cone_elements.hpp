@@ -26,6 +26,9 @@ class ConeElements {
   ConeElements(const ConeConstraints& constraints, const std::vector<int>& vertexOfNode,
                const math::BlockCholesky& cholesky);
 
+  /// Says where the blocks stand in another factorisation; what the bounds' state is stays.
+  void locate(const std::vector<int>& vertexOfNode, const math::BlockCholesky& cholesky);
+
   int boundCount() const { return boundCount_; }  ///< the sum of their orders: 2 an ellipse, 1 a direction
 
   /// Adds Σ w (stiffness I) w to `cholesky`, and its product with x to `forces`.
@@ -33,6 +36,16 @@ class ConeElements {
 
   /// S near what x leaves, but well inside; Λ = barrier S⁻¹, plus the multipliers there were if `keep`.
   void start(const Positions& x, double barrier, bool keep);
+
+  /// The multipliers Λ of all bounds, with the padding of the packets.
+  struct Multipliers {
+    std::vector<SymmetricPacket> ellipses;
+    std::vector<Packet> directions;
+  };
+  Multipliers multipliers() const;
+  void setMultipliers(const Multipliers& multipliers, double factor);
+  /// Adds the Σ FΛw of such multipliers at x to `forces`, and returns what Linearization::supportGap says of them.
+  double addForces(const Multipliers& multipliers, const Positions& x, Positions& forces) const;
 
   /// S as x leaves it and Λ = barrier S⁻¹, whose forces are the derivatives of -barrier Σ log det S. Returns Σ log det
   /// S, or minus infinity (and has set nothing of use) if x does not lie inside of all bounds.
@@ -62,6 +75,9 @@ class ConeElements {
   /// h and Y from the last direction, whose products count `weight` times (1, or 0: the direction does not matter);
   /// adds Σ F (U (r + h) U + Y) w + dF̃ dΛ̃ w to `forces`.
   void correct(double target, double weight, Positions& forces);
+  /// Changes Y by what brings the products ΛS after a `step` along the last direction, which are to be `target`, back
+  /// to within a factor of ten of it (Gondzio 1996); adds to `forces` as `correct` does.
+  void centralise(double target, double step, Positions& forces);
   void keepDirection();
   void restoreDirection();
   void advance(double step);

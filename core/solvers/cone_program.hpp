@@ -33,6 +33,12 @@ struct ConeConstraints {
   std::vector<char> fixed;  ///< per node
 };
 
+/// Where a stiffness K couples coordinates 3 node + axis: the lower triangle, rows[s] >= columns[s], in whole 3 x 3
+/// blocks.
+struct ConeStiffness {
+  std::vector<int> rows, columns;
+};
+
 struct ConeProgramOptions {
   double relativeGap = 1e-8;  ///< the duality gap relative to the objective, and the dual residual
   /// The duality gap at which a problem counts as solved however small its objective is, relative to the total mass
@@ -71,14 +77,20 @@ struct ConeSolution {
 
 /// Projects positions onto stretch limits: the global optimum of a convex program (thesis 3.2), by a primal-dual
 /// interior-point method with one 2 x 2 multiplier an ellipse, whose Newton system is condensed onto the positions.
-/// The symbolic factorisation and the last multipliers are kept between solves.
+/// The symbolic factorisation and the multipliers of the last solutions are kept between solves.
 class ConeProgram {
  public:
   /// Throws base::InputError (location empty) for a mass that is not above 0, a node out of range, or a bound that is
   /// not positive definite.
-  explicit ConeProgram(ConeConstraints constraints);
+  explicit ConeProgram(ConeConstraints constraints, ConeStiffness stiffness = {});
   ~ConeProgram();
   ConeProgram(ConeProgram&&) noexcept;
+
+  /// From now on the objective is ½ (x - x̂)ᵀ H (x - x̂) with H = (1 + inertia) M + K, and so are all norms of the
+  /// solution; `entries` of K in the order that the constructor was given [kg]. False if H is not positive definite.
+  bool setStiffness(const Eigen::VectorXd& entries, double inertia);
+
+  const ConeConstraints& constraints() const;
 
   /// `candidate`: x̂, 3 x nodes, finite; its fixed nodes are where they are to be [m]. `start`: where to look first, as
   /// a rule the projection before; it need not keep the limits. Throws base::InputError if a number is not finite.

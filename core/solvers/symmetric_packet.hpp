@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 #include "core/math/packet.hpp"
@@ -8,6 +8,25 @@
 namespace pliant::solvers {
 
 using math::Packet;
+
+inline Packet maximum(const Packet& p, const Packet& q) {
+  return Packet::map(
+      [](const Packet::Register& x, const Packet::Register& y) -> Packet::Register { return x > y ? x : y; }, p, q);
+}
+
+inline Packet minimum(const Packet& p, const Packet& q) { return -maximum(-p, -q); }
+
+inline double sumOf(const Packet& p) {
+  double sum = 0;
+  for (int lane = 0; lane < Packet::width; ++lane) sum += p[lane];
+  return sum;
+}
+
+inline double largestOf(const Packet& p) {
+  double largest = p[0];
+  for (int lane = 1; lane < Packet::width; ++lane) largest = std::max(largest, p[lane]);
+  return largest;
+}
 
 /// Symmetric 2 x 2 matrices, eight at once.
 struct SymmetricPacket {
@@ -52,6 +71,27 @@ inline SymmetricPacket symmetricProduct(const SymmetricPacket& p, const Symmetri
 inline SymmetricPacket solveSymmetricProduct(const SymmetricPacket& v, const SymmetricPacket& r) {
   const Packet z = (2.0 * r.c * (v.a * v.b) - v.c * (r.a * v.b + r.b * v.a)) / (v.trace() * v.determinant());
   return {(r.a - v.c * z) / v.a, (r.b - v.c * z) / v.b, z};
+}
+
+/// p with its eigenvalues changed by `change`.
+template <class Change>
+SymmetricPacket mapEigenvalues(const SymmetricPacket& p, const Change& change) {
+  const Packet half = 0.5 * (p.a - p.b), mean = 0.5 * p.trace();
+  const Packet radius = sqrt(half * half + p.c * p.c);
+  const Packet high = change(mean + radius), low = change(mean - radius);
+  const Packet ratio = 0.5 * (high - low) / maximum(radius, 1e-300);
+  const Packet middle = 0.5 * (high + low);
+  return {middle + ratio * half, middle - ratio * half, ratio * p.c};
+}
+
+/// factor v vᵀ.
+inline SymmetricPacket scaledOuter(const Packet& factor, const std::array<double, 2>& v) {
+  return {factor * (v[0] * v[0]), factor * (v[1] * v[1]), factor * (v[0] * v[1])};
+}
+
+/// vᵀ p v.
+inline Packet along(const SymmetricPacket& p, const std::array<double, 2>& v) {
+  return p.a * (v[0] * v[0]) + p.b * (v[1] * v[1]) + p.c * (2 * v[0] * v[1]);
 }
 
 /// A linear map F from 2 to 3 dimensions, by columns.

@@ -81,6 +81,31 @@ class TestClothDrape : public QObject {
     QVERIFY(mechanics::Vector(forces.reshaped())(free).norm() > 0.5 * weight(free).norm());
   }
 
+  /// Newton's method and splitting share nothing but the limits, and end in the same place.
+  void bothMethodsFindTheSameEquilibrium() {
+    const auto problem = std::make_shared<const cloth::ClothProblem>(
+        test::withLimit(test::hungByCorners(test::withGravity(test::sheetProblem(6), {0, 0, -9.81})), 1.02));
+    cloth::DrapeOptions options;
+    options.tolerance = 1e-4;
+    cloth::ClothDrape newton(problem, options);
+    cloth::ClothDrape split(problem, options, [&](const cloth::SheetCones& cones) {
+      return cloth::makeStrainLimiter("cone", cones.constraints, options.projection);
+    });
+    base::ExecutionContext context;
+    for (cloth::ClothDrape* drape : {&newton, &split}) {
+      int steps = 0;
+      while (!drape->converged() && steps < 3000) {
+        const cloth::DrapeRecord record = drape->step(context);
+        QVERIFY2(record.step.termination == base::TerminationType::converged, record.step.message.c_str());
+        ++steps;
+      }
+      QVERIFY2(drape->converged(), qPrintable(QString::number(steps)));
+    }
+    const double distance = (newton.positions() - split.positions()).colwise().norm().maxCoeff();
+    QVERIFY2(distance < 1e-3 * 0.5, qPrintable(QString::number(distance)));
+    QVERIFY((newton.limitForces() - split.limitForces()).norm() < 1e-2 * split.limitForces().norm());
+  }
+
   /// A sheet held by two corners comes to rest on a ball: nowhere inside it, not through itself, within its limits, and
   /// with all forces, those of contact among them, in balance.
   void itRestsOnABall() {
