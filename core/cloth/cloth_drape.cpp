@@ -28,6 +28,7 @@ constexpr double boundChange = 1.6;
 /// Of Newton's method: how the step grows, Armijo's condition, and where the line search gives up.
 constexpr double stepGrowth = 2;
 constexpr double stepCut = 8;
+constexpr double largestGrowth = 200;  ///< of h; inertia is nothing then, and a matrix without it is all but singular
 constexpr double sufficientDecrease = 1e-4;
 constexpr double shortestFraction = 1e-6;
 constexpr double roundingOfEnergy = 1e-13;
@@ -124,14 +125,16 @@ DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
   const base::Stopwatch watch;
   const Vector slope = potential_.gradient(x);
   Vector step;
+  const auto shorten = [&](std::string message) {  // with more inertia it may go
+    timeStep_ = h / stepCut;
+    if (timeStep_ >= shortestStep) return;
+    record.step.termination = TerminationType::failed;
+    record.step.message = std::move(message);
+  };
   record.step.newtonIterations = 1;
   if (!potential_.newtonStep(x, slope, step) ||
       !program_->setStiffness(h * h * potential_.hessianEntries(), h * h * potential_.inertia() - 1)) {
-    timeStep_ = h / stepCut;
-    if (timeStep_ < shortestStep) {
-      record.step.termination = TerminationType::failed;
-      record.step.message = "No direction lowers the energy of the drape.";
-    }
+    shorten("No direction lowers the energy of the drape.");
     return record;
   }
   // What the step was in truth, where the Hessian needed more inertia.
@@ -143,6 +146,10 @@ DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
   record.step.projections = 1;
   record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
   record.step.projectionSeconds = projectionWatch.seconds();
+  if (solution->report.termination == TerminationType::failed) {
+    shorten(solution->report.message);
+    return record;
+  }
   if (!solution->report.converged()) {
     record.step.termination = solution->report.termination;
     record.step.message = solution->report.message;
@@ -156,7 +163,8 @@ DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
            !(potential_.value(x + fraction * direction) <= energy - sufficientDecrease * fraction * decrease))
       fraction *= 0.5;
     positions_ = (x + fraction * direction).reshaped(3, nodes);
-    timeStep_ = std::clamp(taken * (fraction == 1 ? stepGrowth : fraction), shortestStep, longestStep_);
+    timeStep_ =
+        std::clamp(taken * (fraction == 1 ? stepGrowth : fraction), shortestStep, largestGrowth * options_.timeStep);
     // With the multipliers that the whole step had.
     solution->positions = positions_;
     limitForces_ = solvers::limitForces(program_->constraints(), *solution) / (h * h);
