@@ -17,6 +17,8 @@ namespace {
 
 /// Limits are tightened by this factor, so that what keeps the tight ones but for a residual keeps the true ones.
 constexpr double tightening = 1 - 1e-10;
+/// More room than where there is no contact, which may be in the way as well.
+constexpr solvers::ConeElements::StartingSlack startingSlack{0.0025, 0.0025};
 /// Fraction of the way to the boundary of the cones.
 constexpr double stepFraction = 0.99;
 /// Corrections of one predictor, and the step length with which nothing is left to gain by more of them.
@@ -183,7 +185,7 @@ TerminationType ContactProjection::Implementation::minimize(Positions& x, const 
       contact->update(withBodies(*candidate));
       if (contact->value() == 0) {
         x = *candidate;
-        elements.start(x, 0, false);
+        elements.start(x, 0, false, startingSlack);
         hasMultipliers = false;
         report.iterations.push_back({});
         return TerminationType::converged;
@@ -195,7 +197,7 @@ TerminationType ContactProjection::Implementation::minimize(Positions& x, const 
   const double expected = lastObjective > 0 ? std::clamp(lastObjective, 1e-4 * farthest, farthest) : farthest;
   const bool warm = options.warmStart && hasMultipliers;
   double barrier0 = (warm ? 1 : 10) * expected / std::max(1, elements.boundCount());
-  elements.start(x, barrier0, warm);
+  elements.start(x, barrier0, warm, startingSlack);
   hasMultipliers = false;
   Positions forces(3, x.cols()), predictorForces(3, x.cols()), push(3, x.cols()), gradient(3, x.cols());
   Direction direction;
@@ -249,7 +251,7 @@ TerminationType ContactProjection::Implementation::minimize(Positions& x, const 
     if (stalled < mostStalls) continue;
     if (restarts++ == mostRestarts) return TerminationType::iterationLimit;
     stalled = 0;
-    elements.start(x, barrier0 *= 100, false);
+    elements.start(x, barrier0 *= 100, false, startingSlack);
   }
 }
 

@@ -8,11 +8,6 @@ namespace pliant::solvers {
 
 namespace {
 
-/// Slacks start at least this large, where 1/2 is a bound that is not felt at all. More directions than an element has
-/// degrees of freedom want more room.
-constexpr double smallestStartingSlack = 0.001;
-constexpr double smallestStartingDirectionSlack = 0.004;
-
 Packet absolute(const Packet& p) { return maximum(p, -p); }
 
 /// The larger eigenvalue.
@@ -155,20 +150,20 @@ void ConeElements::addLaplacian(double stiffness, const Positions& x, Positions&
   }
 }
 
-void ConeElements::start(const Positions& x, double barrier, bool keep) {
+void ConeElements::start(const Positions& x, double barrier, bool keep, const StartingSlack& least) {
   for (Group& group : groups_) {
     const SymmetricPacket metric = mapOf(group, x).metric();
     const Bounds& bounds = bounds_[group.bounds];
     for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
       Ellipse& cone = ellipses_[group.firstEllipse + k];
       cone.s = mapEigenvalues(0.5 * identityMinus(congruence(bounds.scalings[k], metric)),
-                              [](const Packet& slack) { return maximum(slack, smallestStartingSlack); });
+                              [&](const Packet& slack) { return maximum(slack, least.ellipses); });
       const SymmetricPacket own = barrier * inverse(cone.s);
       cone.l = keep ? cone.l + own : own;
     }
     for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
       Direction& cone = directions_[group.firstDirection + k];
-      cone.s = maximum(0.5 * (1.0 - along(metric, bounds.directions[k])), smallestStartingDirectionSlack);
+      cone.s = maximum(0.5 * (1.0 - along(metric, bounds.directions[k])), least.directions);
       const Packet own = barrier / cone.s;
       cone.l = keep ? cone.l + own : own;
     }

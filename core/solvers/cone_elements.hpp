@@ -34,8 +34,15 @@ class ConeElements {
   /// Adds Σ w (stiffness I) w to `cholesky`, and its product with x to `forces`.
   void addLaplacian(double stiffness, const Positions& x, Positions& forces, math::BlockCholesky& cholesky) const;
 
+  /// Slacks start at least this large, where 1/2 is a bound that is not felt at all. More directions than an element
+  /// has degrees of freedom want more room.
+  struct StartingSlack {
+    double ellipses = 0.001;
+    double directions = 0.004;
+  };
   /// S near what x leaves, but well inside; Λ = barrier S⁻¹, plus the multipliers there were if `keep`.
-  void start(const Positions& x, double barrier, bool keep);
+  void start(const Positions& x, double barrier, bool keep, const StartingSlack& least);
+  void start(const Positions& x, double barrier, bool keep) { start(x, barrier, keep, StartingSlack()); }
 
   /// The multipliers Λ of all bounds, with the padding of the packets.
   struct Multipliers {

@@ -20,6 +20,7 @@ constexpr double stepFraction = 0.99;
 /// The target of an iteration is the power of what the predictor would leave of the complementarity. Corrections reach
 /// farther than the predictor, so it is higher than the usual 3.
 constexpr double targetPower = 5;
+constexpr double targetOfTolerance = 0.1;
 /// The first target, by the objective over the number of bounds.
 constexpr double coldBarrier = 10;
 constexpr double warmBarrier = 3;
@@ -246,7 +247,10 @@ ConeSolution ConeProgram::Implementation::solve(const Positions& candidate, cons
       solve(right, dx);
       const double affine = std::min(1.0, stepFraction * elements.direct(dx));
       const double ratio = elements.complementarityAfter(affine) / at.complementarity;
-      target = std::pow(ratio, targetPower) * barrier;
+      // What is far below the gap that is asked for would but cost digits.
+      const double enough = targetOfTolerance * std::max(options.relativeGap * solution.objective, absoluteGap) /
+                            std::max(1, elements.boundCount());
+      target = std::max(std::pow(ratio, targetPower) * barrier, std::min(barrier, enough));
     }
     double best = 0;
     const auto tryDirection = [&] {
