@@ -100,7 +100,7 @@ class IncrementalPotential {
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
   Vector entries_;                                      ///< the Hessian, without mass
   bool stressFree_ = false;
-  double shift_ = 0;                                    ///< that the last factorisation needed
+  double shift_ = 0;  ///< that the last factorisation needed
 };
 
 }  // namespace pliant::cloth

@@ -15,7 +15,8 @@ struct SurfaceMesh {
   Eigen::Matrix3Xd points;
   std::vector<std::array<int, 3>> triangles;
   std::map<std::string, std::vector<int>> groups;
-  /// Texture coordinates of each triangle's corners, if a file gives them: of a garment, its flat pattern. Empty if not.
+  /// Texture coordinates of each triangle's corners, if a file gives them: of a garment, its flat pattern. Empty if
+  /// not.
   std::vector<std::array<Eigen::Vector2d, 3>> texture;
 };
 
@@ -36,8 +37,9 @@ SurfaceMesh weldMesh(const SurfaceMesh& mesh, double tolerance);
 
 /// Reads an STL, OBJ, PLY, glTF or glb file through assimp, lengths multiplied by `scale`. Polygons become triangles,
 /// points of no triangle are left out; nothing is welded, and there are no groups. Texture coordinates are those of the
-/// file, not scaled, if all triangles have them. Coordinates have passed through floats (7 digits). Throws base::InputError (location empty) if the file is missing, not readable, or holds no
-/// triangles, or if an index is out of range or a coordinate not finite.
+/// file, not scaled, if all triangles have them. Coordinates have passed through floats (7 digits). Throws
+/// base::InputError (location empty) if the file is missing, not readable, or holds no triangles, or if an index is out
+/// of range or a coordinate not finite.
 SurfaceMesh readMesh(const std::filesystem::path& file, double scale);
 
 /// Writes STL, OBJ, PLY, glTF (with a .bin beside it), glb or 3MF, chosen by the extension, with coordinates as floats

@@ -40,8 +40,8 @@ class ElasticAssembler {
   Vector gradient(const Vector& x) const;
   SparseMatrix hessian(const Vector& x) const;
   /// The same Hessian as the values of its entries, in the order of rows() and columns().
-  /// With `stressesOf` the stresses are those of that configuration (see StressSource): of the rest shape they are none,
-  /// and the Hessian of a membrane is then positive semidefinite.
+  /// With `stressesOf` the stresses are those of that configuration (see StressSource): of the rest shape they are
+  /// none, and the Hessian of a membrane is then positive semidefinite.
   void hessianEntries(const Vector& x, Vector& entries, const Vector* stressesOf = nullptr) const;
 
  private:

@@ -14,7 +14,7 @@ namespace pliant::render {
 struct Drape {
   std::string title;
   std::shared_ptr<const cloth::ClothProblem> problem;  ///< null: the title alone
-  std::shared_ptr<const scene::ClothFrame> frame;  ///< null: at rest
+  std::shared_ptr<const scene::ClothFrame> frame;      ///< null: at rest
 };
 
 /// How many columns `count` drapes take, and how many rows of them.
