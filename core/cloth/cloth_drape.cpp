@@ -29,9 +29,9 @@ constexpr double boundChange = 1.6;
 constexpr double stepGrowth = 2;
 constexpr double stepCut = 8;
 constexpr double largestGrowth = 200;  ///< of h; inertia is nothing then, and a matrix without it is all but singular
-constexpr double sufficientDecrease = 1e-4;
+constexpr double leastDecrease = 1e-4;
 constexpr double shortestFraction = 1e-6;
-constexpr double roundingOfEnergy = 1e-13;
+constexpr double energyRounding = 1e-13;
 
 /// Norm over the nodes that are not held.
 double freeNorm(const Eigen::Matrix3Xd& forces, const std::vector<char>& held) {
@@ -159,8 +159,8 @@ DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
     const double decrease = -slope.dot(direction), energy = potential_.value(x);
     double fraction = 1;
     // The last steps lower the energy by less than its rounding.
-    while (fraction > shortestFraction && decrease > roundingOfEnergy * std::abs(energy) &&
-           !(potential_.value(x + fraction * direction) <= energy - sufficientDecrease * fraction * decrease))
+    while (fraction > shortestFraction && decrease > energyRounding * std::abs(energy) &&
+           !(potential_.value(x + fraction * direction) <= energy - leastDecrease * fraction * decrease))
       fraction *= 0.5;
     positions_ = (x + fraction * direction).reshaped(3, nodes);
     timeStep_ =

@@ -23,7 +23,8 @@ struct SewnEdge {
 class Sewing {
  public:
   explicit Sewing(std::vector<PlacedGeometry>& geometries) : geometries_(geometries) {
-    first_.resize(static_cast<std::size_t>(geometries.back().firstNode + geometries.back().ownCount));
+    const PlacedGeometry& last = geometries.back();
+    first_.resize(static_cast<std::size_t>(last.firstNode) + static_cast<std::size_t>(last.ownCount));
     std::iota(first_.begin(), first_.end(), 0);
   }
 
