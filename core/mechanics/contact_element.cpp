@@ -21,7 +21,7 @@ template <int size>
 Eigen::Matrix<double, size, size> withConvexity(const Eigen::Matrix<double, size, size>& symmetric, double convexity) {
   if (convexity == 0) return symmetric;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, size, size>> solver(symmetric);
-  const auto values = solver.eigenvalues();
+  const auto& values = solver.eigenvalues();
   return solver.eigenvectors() * (values - convexity * values.cwiseMin(0)).asDiagonal() *
          solver.eigenvectors().transpose();
 }
