@@ -65,11 +65,10 @@ ClothDrape::ClothDrape(std::shared_ptr<const ClothProblem> problem, DrapeOptions
         std::make_unique<ContactProjection>(sheetCones(sheet, ProjectionNorm::mass).constraints, contact_);
   } else if (limited) {
     const SheetCones cones = sheetCones(sheet_, ProjectionNorm::mass);
-    if (options_.limitMethod == "cone" && !makeLimiter) {
-      potential_.setStressFree(true);  // compression is not to shorten the steps
+    if (options_.limitMethod == "cone" && !makeLimiter)
       program_ = std::make_unique<solvers::ConeProgram>(
           cones.constraints, solvers::ConeStiffness{potential_.hessianRows(), potential_.hessianColumns()});
-    } else
+    else
       limiter_ = makeLimiter ? makeLimiter(cones)
                              : makeStrainLimiter(options_.limitMethod, cones.constraints, options_.projection);
   }
@@ -102,12 +101,18 @@ DrapeRecord ClothDrape::step(base::ExecutionContext& context) {
   return record;
 }
 
-StepTerms ClothDrape::termsFromRest() const {
+StepTerms ClothDrape::termsFrom(const Vector& x) const {
   StepTerms terms;
   terms.rate = 1 / timeStep_;
-  terms.base = terms.target = positions_.reshaped();
+  terms.base = terms.target = x;
   if (problem_->model->stiffnessDamping != 0) terms.history = potential_.elasticForce(terms.base);
   return terms;
+}
+
+double ClothDrape::momentum() {
+  const double last = weight_;
+  weight_ = 0.5 * (1 + std::sqrt(1 + 4 * last * last));
+  return (last - 1) / weight_;
 }
 
 double ClothDrape::norm(const Vector& force) const {
@@ -115,53 +120,69 @@ double ClothDrape::norm(const Vector& force) const {
 }
 
 DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
-  const double h = timeStep_;
   const Eigen::Index nodes = positions_.cols();
   DrapeRecord record;
-  record.timeStep = h;
   const Vector x = positions_.reshaped();
-  potential_.setTerms(termsFromRest());
   potential_.beginWind(positions_, options_.time);
-  const base::Stopwatch watch;
-  const Vector slope = potential_.gradient(x);
-  Vector step;
-  const auto shorten = [&](std::string message) {  // with more inertia it may go
-    timeStep_ = h / stepCut;
-    if (timeStep_ >= shortestStep) return;
-    record.step.termination = TerminationType::failed;
-    record.step.message = std::move(message);
-  };
-  record.step.newtonIterations = 1;
-  if (!potential_.newtonStep(x, slope, step) ||
-      !program_->setStiffness(h * h * potential_.hessianEntries(), h * h * potential_.inertia() - 1)) {
-    shorten("No direction lowers the energy of the drape.");
-    return record;
-  }
-  // What the step was in truth, where the Hessian needed more inertia.
-  const double taken = 1 / std::sqrt(potential_.inertia());
-  record.step.newtonSeconds = watch.seconds();
-  const base::Stopwatch projectionWatch;
-  auto solution = std::make_shared<solvers::ConeSolution>(
-      program_->solve((x + step).reshaped(3, nodes), positions_, options_.projection.cone, context));
-  record.step.projections = 1;
-  record.step.projectionIterations = static_cast<int>(solution->report.iterations.size());
-  record.step.projectionSeconds = projectionWatch.seconds();
-  if (solution->report.termination == TerminationType::failed) {
-    shorten(solution->report.message);
-    return record;
-  }
-  if (!solution->report.converged()) {
-    record.step.termination = solution->report.termination;
-    record.step.message = solution->report.message;
-  }
-  if (solution->report.converged() || solution->report.termination == TerminationType::iterationLimit) {
-    const Vector direction = solution->positions.reshaped() - x;
-    const double decrease = -slope.dot(direction), energy = potential_.value(x);
+  // From where it would get by going on as before, or else from where it is.
+  for (double ahead : {momentum(), 0.0}) {
+    const double h = record.timeStep = timeStep_;
+    const Vector from = ahead > 0 ? Vector(x + ahead * (x - previous_)) : x;
+    potential_.setTerms(termsFrom(from));
+    const base::Stopwatch watch;
+    const Vector slope = potential_.gradient(from);
+    Vector step;
+    const auto shorten = [&](std::string message) {  // with more inertia it may go
+      timeStep_ = h / stepCut;
+      restart();
+      if (timeStep_ >= shortestStep) return;
+      record.step.termination = TerminationType::failed;
+      record.step.message = std::move(message);
+    };
+    ++record.step.newtonIterations;
+    if (!potential_.newtonStep(from, slope, step) ||
+        !program_->setStiffness(h * h * potential_.hessianEntries(), h * h * potential_.inertia() - 1)) {
+      shorten("No direction lowers the energy of the drape.");
+      return record;
+    }
+    // What the step was in truth, where the Hessian needed more inertia.
+    const double taken = 1 / std::sqrt(potential_.inertia());
+    record.step.newtonSeconds += watch.seconds();
+    const base::Stopwatch projectionWatch;
+    auto solution = std::make_shared<solvers::ConeSolution>(
+        program_->solve((from + step).reshaped(3, nodes), positions_, options_.projection.cone, context));
+    ++record.step.projections;
+    record.step.projectionIterations += static_cast<int>(solution->report.iterations.size());
+    record.step.projectionSeconds += projectionWatch.seconds();
+    record.step.projection = solution;
+    if (solution->report.termination == TerminationType::failed) {
+      shorten(solution->report.message);
+      return record;
+    }
+    if (!solution->report.converged()) {
+      record.step.termination = solution->report.termination;
+      record.step.message = solution->report.message;
+      if (solution->report.termination != TerminationType::iterationLimit) return record;
+    }
+    const Vector reached = solution->positions.reshaped(), direction = reached - x;
     double fraction = 1;
-    // The last steps lower the energy by less than its rounding.
-    while (fraction > shortestFraction && decrease > energyRounding * std::abs(energy) &&
-           !(potential_.value(x + fraction * direction) <= energy - leastDecrease * fraction * decrease))
-      fraction *= 0.5;
+    if (ahead > 0) {
+      const double lowest = potential_.value(reached);
+      potential_.setTerms(termsFrom(x));
+      if (!(lowest < potential_.value(x))) {
+        restart();
+        continue;
+      }
+    } else {
+      const double decrease = -slope.dot(direction), energy = potential_.value(x);
+      // The last steps lower the energy by less than its rounding.
+      while (fraction > shortestFraction && decrease > energyRounding * std::abs(energy) &&
+             !(potential_.value(x + fraction * direction) <= energy - leastDecrease * fraction * decrease))
+        fraction *= 0.5;
+    }
+    // Momentum is lost where it does not lead on (O'Donoghue & Candès 2015).
+    if (fraction < 1 || (from - reached).cwiseProduct(potential_.masses()).dot(direction) > 0) restart();
+    previous_ = x;
     positions_ = (x + fraction * direction).reshaped(3, nodes);
     timeStep_ =
         std::clamp(taken * (fraction == 1 ? stepGrowth : fraction), shortestStep, largestGrowth * options_.timeStep);
@@ -173,8 +194,8 @@ DrapeRecord ClothDrape::newtonStep(base::ExecutionContext& context) {
     const Vector external = potential_.externalForce() + potential_.windForce();
     residual_ = norm(potential_.elasticForce(positions_.reshaped()) - external + Vector(limitForces_.reshaped())) /
                 std::max(norm(external), std::numeric_limits<double>::min());
+    break;
   }
-  record.step.projection = std::move(solution);
   return record;
 }
 
@@ -192,7 +213,7 @@ DrapeRecord ClothDrape::splitStep(base::ExecutionContext& context) {
     return report.converged() || report.termination == TerminationType::iterationLimit;
   };
 
-  potential_.setTerms(termsFromRest());
+  potential_.setTerms(termsFrom(positions_.reshaped()));
   potential_.setExtraForce(-limitForces_.reshaped());
   potential_.beginWind(positions_, options_.time);
   Vector candidate = positions_.reshaped();

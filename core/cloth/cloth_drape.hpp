@@ -26,7 +26,10 @@ struct DrapeRecord {
 /// With cone projections and without contact, by Newton's method: each step projects the point to which Newton's method
 /// for E(x) - f·x + ‖x - x_k‖²_M / (2h²) would go onto the limits, not by mass but in the norm of that function's
 /// Hessian. This is its quadratic model's minimum within the limits, which are convex, so every point on the way there
-/// keeps them and a line search decides how far to go; h grows as long as whole steps lower the energy.
+/// keeps them and a line search decides how far to go; h grows as long as whole steps lower the energy. Compression
+/// makes the Hessian indefinite, so as a rule it is the convex one (mechanics::HessianKind), with which steps are too
+/// short where folds rearrange themselves; they gain momentum then (Nesterov 1983), which is lost where it does not
+/// lower the energy.
 ///
 /// Otherwise by splitting: each step
 ///   x̃ = argmin E(x) - f·x + R_k·x + ‖x - x_k‖²_M / (2h²),  x_{k+1} = P(x̃ + h² M⁻¹ R_k),
@@ -56,7 +59,11 @@ class ClothDrape {
  private:
   DrapeRecord newtonStep(base::ExecutionContext& context);
   DrapeRecord splitStep(base::ExecutionContext& context);
-  StepTerms termsFromRest() const;
+  StepTerms termsFrom(const Vector& x) const;  ///< at rest there
+  /// The part of the last step that is gone once more, before Newton's method takes over (Nesterov 1983): more from
+  /// step to step, until it starts anew.
+  double momentum();
+  void restart() { weight_ = 1; }
   double norm(const Vector& force) const;  ///< over the nodes that are not held
   solvers::ConeSolution project(const Eigen::Matrix3Xd& candidate, base::ExecutionContext& context);
 
@@ -71,6 +78,8 @@ class ClothDrape {
   Eigen::Matrix3Xd positions_, limitForces_;
   double timeStep_;
   double longestStep_ = 1e4;
+  Vector previous_;      ///< positions before the last step
+  double weight_ = 1;    ///< Nesterov's t: of the momentum
   int sinceChange_ = 0;  ///< steps since h was changed
   double bestResidual_ = std::numeric_limits<double>::infinity();
   int sinceProgress_ = 0;  ///< steps since that was reached

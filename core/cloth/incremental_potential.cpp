@@ -11,7 +11,10 @@ using base::TerminationType;
 
 namespace {
 
-/// Of the mass term, where the Hessian is not positive definite: at first, by how much it grows, and the most.
+/// So many steps take the convex Hessian before the exact one is tried again.
+constexpr int convexInSuccession = 4;
+/// Of the mass term, where even the convex Hessian is not positive definite: at first, by how much it grows, and the
+/// most.
 constexpr double firstShift = 1e-3;
 constexpr double shiftGrowth = 8;
 constexpr double largestShift = 1e8;
@@ -128,18 +131,18 @@ Vector IncrementalPotential::gradient(const Vector& x) const {
   return result;
 }
 
-void IncrementalPotential::evaluateHessian(const Vector& x) {
-  assembler_.hessianEntries(x, entries_, stressFree_ ? &problem_->model->restPositions : nullptr);
+void IncrementalPotential::evaluateHessian(const Vector& x, mechanics::HessianKind kind) {
+  assembler_.hessianEntries(x, entries_, kind);
   entries_ *= 1 + problem_->model->stiffnessDamping * terms_.rate;
   if (wind_) wind_->addHessian(terms_.rate * (x - terms_.base), terms_.rate, entries_);
 }
 
-bool IncrementalPotential::factorize(double shift) {
+bool IncrementalPotential::factorize() {
   cholesky_->clear();
   double* values = cholesky_->values();
   for (std::size_t s = 0; s < slots_.size(); ++s)
     if (slots_[s] >= 0) values[slots_[s]] += entries_[static_cast<Eigen::Index>(s)];
-  const double inertia = (1 + shift) * terms_.rate * terms_.rate + problem_->model->massDamping * terms_.rate;
+  const double inertia = this->inertia();
   for (std::size_t i = 0; i < free_.size(); ++i)
     for (const Eigen::Index diagonal : diagonals_[i]) values[diagonal] += inertia * masses_[3 * free_[i]];
   return cholesky_->factorize();
@@ -152,22 +155,29 @@ double IncrementalPotential::residualOf(const Vector& gradient) const {
 }
 
 bool IncrementalPotential::newtonStep(const Vector& x, const Vector& gradient, Vector& step) {
-  evaluateHessian(x);
   Vector solution(3 * static_cast<Eigen::Index>(free_.size()));
-  // What was needed last time is needed again, as a rule, or a little less.
-  for (double shift = shift_ > firstShift ? shift_ / shiftGrowth : 0; shift <= largestShift;
-       shift = std::max(firstShift, shift * shiftGrowth)) {
-    if (!factorize(shift)) continue;
+  const auto descends = [&] {
+    if (!factorize()) return false;
     for (std::size_t i = 0; i < free_.size(); ++i)
       solution.segment<3>(3 * static_cast<Eigen::Index>(i)) = -gradient.segment<3>(3 * free_[i]);
     cholesky_->solve(solution);
     step.setZero(x.size());
     for (std::size_t i = 0; i < free_.size(); ++i)
       step.segment<3>(3 * free_[i]) = solution.segment<3>(3 * static_cast<Eigen::Index>(i));
-    if (!step.allFinite() || !(step.dot(gradient) < 0)) continue;
-    shift_ = shift;
-    return true;
+    return step.allFinite() && step.dot(gradient) < 0;
+  };
+  if (convexSteps_ == 0) {
+    shift_ = 0;
+    evaluateHessian(x, mechanics::HessianKind::exact);
+    if (descends()) return true;
+    convexSteps_ = convexInSuccession;
   }
+  --convexSteps_;
+  evaluateHessian(x, mechanics::HessianKind::convex);
+  // What was needed last time is needed again, as a rule, or a little less.
+  for (shift_ = shift_ > firstShift ? shift_ / shiftGrowth : 0; shift_ <= largestShift;
+       shift_ = std::max(firstShift, shift_ * shiftGrowth))
+    if (descends()) return true;
   return false;
 }
 
@@ -183,6 +193,7 @@ base::SolverReport IncrementalPotential::minimize(Vector& x, const NewtonOptions
   };
   if (free_.empty()) return finish(TerminationType::converged, "");
   shift_ = 0;
+  convexSteps_ = 0;
   double energy = value(x);
   Vector slope = gradient(x);
   double residual = residualOf(slope);

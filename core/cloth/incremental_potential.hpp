@@ -54,11 +54,9 @@ class IncrementalPotential {
   /// NewtonOptions::tolerance bounds.
   base::SolverReport minimize(Vector& x, const NewtonOptions& options, base::ExecutionContext& context);
 
-  /// Whether Hessians leave out the stresses of membranes: what compression takes from them (and tension adds) is then
-  /// no matter of how far a step may go.
-  void setStressFree(bool stressFree) { stressFree_ = stressFree; }
-  /// A step of Newton's method from x, on all coordinates, with as much inertia more as the Hessian needs to be
-  /// positive definite. False if none lowers Φ.
+  /// A step of Newton's method from x, on all coordinates. Where compression or sharp bends make the Hessian
+  /// indefinite it takes the convex one (see mechanics::HessianKind), and if that is not enough, more inertia. False
+  /// if none lowers Φ.
   bool newtonStep(const Vector& x, const Vector& gradient, Vector& step);
   /// Of the Hessian of the last step: the entries other than those of inertia, in the order of the assembler's [N/m],
   /// and by how much M counts [1/s²].
@@ -81,9 +79,9 @@ class IncrementalPotential {
 
  private:
   double residualOf(const Vector& gradient) const;
-  void evaluateHessian(const Vector& x);
-  /// The factors of the Hessian last evaluated with `shift` rate² M added; false if it is not positive definite.
-  bool factorize(double shift);
+  void evaluateHessian(const Vector& x, mechanics::HessianKind kind);
+  /// The factors of the Hessian last evaluated; false if it is not positive definite.
+  bool factorize();
 
   std::shared_ptr<const ClothProblem> problem_;
   mechanics::ElasticAssembler assembler_;  ///< of the model with all its coordinates free
@@ -98,9 +96,9 @@ class IncrementalPotential {
   std::optional<math::BlockCholesky> cholesky_;
   std::vector<Eigen::Index> slots_;                     ///< of each entry of the assembler in the factors, -1: held
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
-  Vector entries_;                                      ///< the Hessian, without mass
-  bool stressFree_ = false;
-  double shift_ = 0;  ///< that the last factorisation needed
+  Vector entries_;                                      ///< the Hessian of the last step, without mass
+  int convexSteps_ = 0;                                 ///< for which the exact Hessian is not tried
+  double shift_ = 0;                                    ///< of inertia, that the last factorisation needed
 };
 
 }  // namespace pliant::cloth

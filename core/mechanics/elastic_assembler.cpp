@@ -106,12 +106,12 @@ Vector ElasticAssembler::gradient(const Vector& x) const {
   return sum;
 }
 
-void ElasticAssembler::hessianEntries(const Vector& x, Vector& entries, const Vector* stressesOf) const {
+void ElasticAssembler::hessianEntries(const Vector& x, Vector& entries, HessianKind kind) const {
   entries.setZero(entryCount());
   EvaluationBlock<double> block;
   block.x = x.data();
   block.hessian = entries.data();
-  if (stressesOf) block.stressFrom = block.stressTo = stressesOf->data();
+  block.convex = kind == HessianKind::convex;
   for (std::size_t i = 0; i < model_->energies.size(); ++i) {
     block.entries = entries_[i].data();
     model_->energies[i]->accumulate(block);

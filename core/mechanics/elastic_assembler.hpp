@@ -6,6 +6,11 @@
 
 namespace pliant::mechanics {
 
+/// The exact Hessian of an energy that is not convex is indefinite somewhere. In the convex one membranes leave out the
+/// compressive part of their stresses, and hinges the curvature of their angle; what is left of both is positive
+/// semidefinite. Other energies have the exact one either way.
+enum class HessianKind { exact, convex };
+
 /// Evaluates the energies of a model for many configurations at once: eight at a time in a packet, packets spread over
 /// the threads, each element visited once. Sums run in a fixed order, so results do not depend on the threads.
 class ElasticAssembler {
@@ -40,9 +45,7 @@ class ElasticAssembler {
   Vector gradient(const Vector& x) const;
   SparseMatrix hessian(const Vector& x) const;
   /// The same Hessian as the values of its entries, in the order of rows() and columns().
-  /// With `stressesOf` the stresses are those of that configuration (see StressSource): of the rest shape they are
-  /// none, and the Hessian of a membrane is then positive semidefinite.
-  void hessianEntries(const Vector& x, Vector& entries, const Vector* stressesOf = nullptr) const;
+  void hessianEntries(const Vector& x, Vector& entries, HessianKind kind = HessianKind::exact) const;
 
  private:
   std::shared_ptr<const Model> model_;

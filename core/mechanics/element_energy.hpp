@@ -15,6 +15,8 @@ namespace pliant::mechanics {
 ///                                 std::array<T, d(d+1)/2>* hessian) const;
 /// (or with two more arguments, `const std::array<T, d>* stressFrom, const std::array<T, d>* stressTo`: see
 /// ElasticAssembler::StressSource; both may be null)
+/// and, if part of its Hessian can be left out to make it positive semidefinite,
+///   template <class T> void convexHessian(const std::array<T, d>& x, std::array<T, d(d+1)/2>& hessian) const;
 /// and, if it stands for a constraint, `double violation(const std::array<double, d>& x) const`, relative. `evaluate`
 /// returns the element's energy and overwrites the derivatives that are asked for (Hessian packed by rows of
 /// the lower triangle). Adding a kind of energy is writing such a struct.
@@ -54,6 +56,13 @@ class ElementEnergy final : public Energy {
   T evaluateElement(std::size_t e, const EvaluationBlock<T>& block, const std::array<T, d>& x,
                     std::array<T, d>* gradient, std::array<T, packedSize(d)>* hessian) const {
     const Element& element = elements_[e];
+    if constexpr (requires { element.convexHessian(x, *hessian); }) {
+      if (block.convex && hessian) {
+        const T value = element.evaluate(x, gradient, static_cast<std::array<T, packedSize(d)>*>(nullptr));
+        element.convexHessian(x, *hessian);
+        return value;
+      }
+    }
     if constexpr (requires { element.evaluate(x, gradient, hessian, &x, &x); }) {
       if (block.stressFrom) {
         std::array<T, d> from, to;

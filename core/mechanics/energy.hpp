@@ -21,6 +21,8 @@ struct EvaluationBlock {
   /// Like x, or both null: see ElasticAssembler::StressSource.
   const double* stressFrom = nullptr;
   const double* stressTo = nullptr;
+  /// Whether elements that can (membranes, hinges) leave out of their Hessians what makes them indefinite.
+  bool convex = false;
 };
 
 /// Packed lower triangle: entry (row, column) with row >= column.

@@ -27,6 +27,17 @@ struct HingeElement {
     return evaluateAgainst<T>(restAngle, x, gradient, hessian, nullptr);
   }
 
+  /// 2 stiffness ∇θ ∇θᵀ: the Hessian without that of the angle, which is indefinite.
+  template <class T>
+  void convexHessian(const std::array<T, 12>& x, std::array<T, packedSize(12)>& hessian) const {
+    std::array<T, 12> gradient;
+    RestAngleDerivative<T> derivative;
+    evaluateAgainst<T>(restAngle, x, &gradient, nullptr, &derivative);  // mixed = 2 stiffness ∇θ
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j <= i; ++j)
+        hessian[packedIndex(i, j)] = derivative.mixed[i] * derivative.mixed[j] * (0.5 / stiffness);
+  }
+
   /// Minus the derivatives of E by θ₀ and by θ₀ and x.
   template <class T>
   struct RestAngleDerivative {

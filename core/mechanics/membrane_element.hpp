@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/mechanics/element_energy.hpp"
 
 namespace pliant::mechanics {
@@ -67,6 +69,43 @@ struct MembraneElement {
       fillHessian(e1, e2, s1, s2, s3, *hessian);
     }
     return 0.5 * (s1 * a11 + s2 * a22 + s3 * a12);
+  }
+
+  /// The Hessian with the tensile part of the stresses alone. In the triangle's own rest frame the stresses are
+  /// S = R (2s₁, s₃; s₃, 2s₂) Rᵀ / (2A h), R the upper triangular matrix of the rest edges there (RᵀR is their metric).
+  template <class T>
+  void convexHessian(const std::array<T, coordinates>& x, std::array<T, packedSize(coordinates)>& hessian) const {
+    using std::sqrt;
+    constexpr int n = dimension;
+    std::array<T, n> e1, e2;
+    T a11 = -restMetric[0], a22 = -restMetric[1], a12 = -restMetric[2];
+    for (int i = 0; i < n; ++i) {
+      e1[i] = x[n + i] - x[i];
+      e2[i] = x[2 * n + i] - x[i];
+      a11 += e1[i] * e1[i];
+      a22 += e2[i] * e2[i];
+      a12 += e1[i] * e2[i];
+    }
+    const auto& [q11, q21, q22, q31, q32, q33] = stiffness;
+    const T s11 = 2.0 * (q11 * a11 + q21 * a22 + q31 * a12);
+    const T s22 = 2.0 * (q21 * a11 + q22 * a22 + q32 * a12);
+    const T s12 = q31 * a11 + q32 * a22 + q33 * a12;
+    const double r11 = std::sqrt(restMetric[0]), r12 = restMetric[2] / r11;
+    const double r22 = std::sqrt(restMetric[1] - r12 * r12);
+    T p11 = r11 * r11 * s11 + 2 * r11 * r12 * s12 + r12 * r12 * s22;
+    T p12 = r22 * (r11 * s12 + r12 * s22), p22 = r22 * r22 * s22;
+    // Eigenvalues mean ± radius; their positive parts belong to the same axes.
+    const T mean = 0.5 * (p11 + p22), half = 0.5 * (p11 - p22);
+    const T radius = sqrt(half * half + p12 * p12) + std::numeric_limits<double>::min();
+    const auto positive = [](const T& value) { return 0.5 * (value + sqrt(value * value)); };
+    const T larger = positive(mean + radius), smaller = positive(mean - radius);
+    const T factor = (larger - smaller) / (2.0 * radius), rest = 0.5 * (larger + smaller) - factor * mean;
+    p11 = factor * p11 + rest;
+    p22 = factor * p22 + rest;
+    p12 = factor * p12;
+    const T t22 = p22 / (r22 * r22), t12 = (p12 / r22 - r12 * t22) / r11;
+    const T t11 = (p11 - 2 * r11 * r12 * t12 - r12 * r12 * t22) / (r11 * r11);
+    fillHessian(e1, e2, T(0.5 * t11), T(0.5 * t22), t12, hessian);
   }
 
  private:

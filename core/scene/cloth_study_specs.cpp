@@ -82,7 +82,7 @@ std::vector<ParameterSpec> clothStudySpecs() {
            withDefault(integer("maximum_steps", "", "After which it gives up.", 1, 1'000'000), 2000)},
           methods,
           {newtonTolerance(),
-           withDefault(integer("frame_every", "", "Steps from one kept frame to the next.", 1, 1'000'000), 20)}),
+           withDefault(integer("frame_every", "", "Steps from one kept frame to the next.", 1, 1'000'000), 5)}),
       clothStudy("projection", "The positions nearest to given ones that keep the stretch limits, with their proof.",
                  {candidate}, {"cone", "gauss_seidel", "nonlinear_program"}, {normChoice()})};
 }

@@ -170,42 +170,6 @@ void ConeElements::start(const Positions& x, double barrier, bool keep, const St
   }
 }
 
-double ConeElements::centre(const Positions& x, double barrier) {
-  double sum = 0;
-  smallestSlack_ = 0.5;
-  const auto addLogarithms = [&](const Group& group, const Packet& determinant) {
-    for (int lane = 0; lane < lanes; ++lane) {
-      if (group.element[lane] < 0) continue;
-      if (!(determinant[lane] > 0)) return false;
-      sum += std::log(determinant[lane]);
-    }
-    return true;
-  };
-  for (const Group& group : groups_) {
-    const SymmetricPacket metric = mapOf(group, x).metric();
-    const Bounds& bounds = bounds_[group.bounds];
-    for (std::size_t k = 0; k < bounds.scalings.size(); ++k) {
-      Ellipse& cone = ellipses_[group.firstEllipse + k];
-      cone.s = 0.5 * identityMinus(congruence(bounds.scalings[k], metric));
-      cone.l = barrier * inverse(cone.s);
-      // Positive definite where determinant and trace are positive.
-      const Packet trace = cone.s.trace();
-      for (int lane = 0; lane < lanes; ++lane)
-        if (!(trace[lane] > 0) && group.element[lane] >= 0) return -std::numeric_limits<double>::infinity();
-      if (!addLogarithms(group, cone.s.determinant())) return -std::numeric_limits<double>::infinity();
-      smallestSlack_ = std::min(smallestSlack_, -largestOf(-cone.s.determinant() / trace));
-    }
-    for (std::size_t k = 0; k < bounds.directions.size(); ++k) {
-      Direction& cone = directions_[group.firstDirection + k];
-      cone.s = 0.5 * (1.0 - along(metric, bounds.directions[k]));
-      cone.l = barrier / cone.s;
-      if (!addLogarithms(group, cone.s)) return -std::numeric_limits<double>::infinity();
-      smallestSlack_ = std::min(smallestSlack_, -largestOf(-cone.s));
-    }
-  }
-  return sum;
-}
-
 ConeElements::Linearization ConeElements::linearize(const Positions& x, Positions& forces, Positions& predictorForces,
                                                     math::BlockCholesky& cholesky) {
   Linearization result;

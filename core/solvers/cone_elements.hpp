@@ -54,12 +54,6 @@ class ConeElements {
   /// Adds the Σ FΛw of such multipliers at x to `forces`, and returns what Linearization::supportGap says of them.
   double addForces(const Multipliers& multipliers, const Positions& x, Positions& forces) const;
 
-  /// S as x leaves it and Λ = barrier S⁻¹, whose forces are the derivatives of -barrier Σ log det S. Returns Σ log det
-  /// S, or minus infinity (and has set nothing of use) if x does not lie inside of all bounds.
-  double centre(const Positions& x, double barrier);
-  /// At the last `centre`, to within a factor of two.
-  double smallestSlack() const { return smallestSlack_; }
-
   /// What is known at x with the present slacks and multipliers.
   struct Linearization {
     double complementarity = 0;  ///< Σ ⟨Λ, S⟩
@@ -134,7 +128,6 @@ class ConeElements {
   std::vector<int> ellipseOf_;    ///< per element: the first of its ellipses among all, and the end
   std::vector<int> directionOf_;  ///< the same for directions
   int boundCount_ = 0;
-  double smallestSlack_ = 0;
 };
 
 }  // namespace pliant::solvers

@@ -21,10 +21,16 @@ namespace {
 constexpr double radius = 0.25;
 constexpr double range = 0.01;
 
+std::vector<std::array<int, 3>> trianglesOf(const Sheet& sheet) {
+  std::vector<std::array<int, 3>> triangles;
+  for (const auto& element : sheet.constraints.elements) triangles.push_back(element.nodes);
+  return triangles;
+}
+
 /// The sheet of side 1, which may touch itself, and one ball.
 std::shared_ptr<ContactBarrier> makeBarrier(const Sheet& sheet) {
   ContactGeometry geometry;
-  for (const auto& element : sheet.constraints.elements) geometry.triangles.push_back(element.nodes);
+  geometry.triangles = trianglesOf(sheet);
   const int nodes = sheet.constraints.nodeCount;
   geometry.points = {nodes};
   geometry.radii.assign(nodes + 1, 0);
@@ -35,25 +41,6 @@ std::shared_ptr<ContactBarrier> makeBarrier(const Sheet& sheet) {
   rest << sheet.rest, Eigen::Vector3d(0.5, 0.5, -0.3);
   return std::make_shared<ContactBarrier>(
       geometry, rest, pliant::mechanics::ContactOptions{.range = range, .stiffness = 1, .separation = 0});
-}
-
-/// The smallest distance of a point from the triangles: by the definition, over their inside, sides and corners.
-double distanceToSheet(const Sheet& sheet, const Eigen::Matrix3Xd& x, const Eigen::Vector3d& point) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& element : sheet.constraints.elements) {
-    const Eigen::Vector3d a = x.col(element.nodes[0]), e1 = x.col(element.nodes[1]) - a,
-                          e2 = x.col(element.nodes[2]) - a;
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << e1, e2;
-    const Eigen::Vector2d inside = (edges.transpose() * edges).inverse() * (edges.transpose() * (point - a));
-    if (inside.minCoeff() >= 0 && inside.sum() <= 1) smallest = std::min(smallest, (a + edges * inside - point).norm());
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d from = x.col(element.nodes[k]), along = x.col(element.nodes[(k + 1) % 3]) - from;
-      const double t = std::clamp(along.dot(point - from) / along.squaredNorm(), 0.0, 1.0);
-      smallest = std::min(smallest, (from + t * along - point).norm());
-    }
-  }
-  return smallest;
 }
 
 }  // namespace
@@ -97,8 +84,7 @@ class TestContactProjection : public QObject {
     ExecutionContext context;
     pliant::solvers::ConeProgramOptions options;
     options.relativeGap = 1e-5;
-    std::vector<std::array<int, 3>> triangles;
-    for (const auto& element : sheet.constraints.elements) triangles.push_back(element.nodes);
+    const std::vector<std::array<int, 3>> triangles = trianglesOf(sheet);
     double nearest = 1;
     for (int step = 0; step < 40; ++step) {
       Eigen::Matrix3Xd candidate = x + h * velocity;
@@ -115,7 +101,7 @@ class TestContactProjection : public QObject {
       ball = moved;
       velocity = (solution.positions - x) / h;
       x = solution.positions;
-      const double distance = distanceToSheet(sheet, x, ball);
+      const double distance = distanceByBruteForce(x, triangles, ball);
       nearest = std::min(nearest, distance);
       QVERIFY2(distance > radius, qPrintable(QString::number(distance)));
       QCOMPARE(countIntersectionsByBruteForce(x, triangles), 0);
@@ -140,7 +126,7 @@ class TestContactProjection : public QObject {
     const ConeSolution solution = projection.project(candidate, sheet.rest, {ball, ball}, 50, {}, context);
     QVERIFY(solution.report.termination == TerminationType::failed);
     QVERIFY(QString::fromStdString(solution.report.message).contains("cannot get on"));
-    QVERIFY(distanceToSheet(sheet, solution.positions, ball.col(0)) > radius);
+    QVERIFY(distanceByBruteForce(solution.positions, trianglesOf(sheet), ball.col(0)) > radius);
     QCOMPARE(solution.violation, 0.0);
   }
 

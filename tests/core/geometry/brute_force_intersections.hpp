@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/geometry/triangle_intersection.hpp"
@@ -44,4 +46,23 @@ inline int countIntersectionsByBruteForce(const Eigen::Matrix3Xd& points,
     }
   }
   return count;
+}
+
+/// The smallest distance of a point from the triangles: by the definition, over their insides, sides and corners.
+inline double distanceByBruteForce(const Eigen::Matrix3Xd& points, const std::vector<std::array<int, 3>>& triangles,
+                                   const Eigen::Vector3d& point) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& triangle : triangles) {
+    const Eigen::Vector3d a = points.col(triangle[0]);
+    Eigen::Matrix<double, 3, 2> sides;
+    sides << points.col(triangle[1]) - a, points.col(triangle[2]) - a;
+    const Eigen::Vector2d inside = (sides.transpose() * sides).inverse() * (sides.transpose() * (point - a));
+    if (inside.minCoeff() >= 0 && inside.sum() <= 1) smallest = std::min(smallest, (a + sides * inside - point).norm());
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d from = points.col(triangle[k]), along = points.col(triangle[(k + 1) % 3]) - from;
+      const double t = std::clamp(along.dot(point - from) / along.squaredNorm(), 0.0, 1.0);
+      smallest = std::min(smallest, (from + t * along - point).norm());
+    }
+  }
+  return smallest;
 }

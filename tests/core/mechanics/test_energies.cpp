@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <QtTest>
 #include <random>
@@ -24,7 +25,7 @@ Vector randomShape(const mechanics::Model& model, std::mt19937& random) {
 
 /// Central differences of order 6 of a function of one variable, so that truncation lies far below rounding.
 template <class Function>
-auto derivative(const Function& f, double step) {
+auto derivative(const Function& f, double step) -> decltype(f(step)) {
   return ((45.0 * (f(step) - f(-step)) - 9.0 * (f(2 * step) - f(-2 * step)) + (f(3 * step) - f(-3 * step))) /
           (60.0 * step));
 }
@@ -40,6 +41,8 @@ class TestEnergies : public QObject {
   void gradientIsDerivativeOfValue();
   void hessianIsDerivativeOfGradient_data() { kinds(); }
   void hessianIsDerivativeOfGradient();
+  void convexHessianLeavesOutWhatIsIndefinite_data() { kinds(); }
+  void convexHessianLeavesOutWhatIsIndefinite();
   void packetsAgreeWithScalars_data() { kinds(); }
   void packetsAgreeWithScalars();
   void rigidMotionsChangeNothing_data() { kinds(); }
@@ -86,6 +89,42 @@ void TestEnergies::hessianIsDerivativeOfGradient() {
       const auto along = [&](double s) -> Vector { return assembler.gradient(x + s * Vector::Unit(x.size(), i)); };
       QVERIFY((derivative(along, 5e-4 * size) - hessian.col(i)).norm() <= 1e-8 * hessian.norm());
     }
+  });
+}
+
+void TestEnergies::convexHessianLeavesOutWhatIsIndefinite() {
+  forExamples([](std::shared_ptr<const mechanics::Model> model, std::mt19937& random) {
+    const std::string_view name = model->energies.front()->name();
+    const bool membrane = name == "membrane", hinge = name == "hinge_bending";
+    const mechanics::ElasticAssembler assembler(model);
+    const auto both = [&](const Vector& x) {
+      std::array<Matrix, 2> hessians;
+      for (const auto kind : {mechanics::HessianKind::exact, mechanics::HessianKind::convex}) {
+        Vector entries;
+        assembler.hessianEntries(x, entries, kind);
+        Matrix& full = hessians[kind == mechanics::HessianKind::exact ? 0 : 1];
+        full.setZero(model->dofs.freeCount(), model->dofs.freeCount());
+        for (int s = 0; s < assembler.entryCount(); ++s)
+          full(assembler.rows()[s], assembler.columns()[s]) = full(assembler.columns()[s], assembler.rows()[s]) =
+              entries[s];
+      }
+      return hessians;
+    };
+    const auto smallestEigenvalue = [](const Matrix& matrix) {
+      return Eigen::SelfAdjointEigenSolver<Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    };
+    const auto [exact, convex] = both(randomShape(*model, random));
+    if (!membrane && !hinge) {
+      QVERIFY(convex == exact);
+      return;
+    }
+    QVERIFY(smallestEigenvalue(convex) >= -1e-13 * convex.norm());
+    if (membrane) QVERIFY(smallestEigenvalue(convex - exact) >= -1e-13 * convex.norm());
+    // Of what is stretched in all directions, and of hinges at rest, nothing is left out.
+    const auto [exactHere, convexHere] = both((membrane ? 1.1 : 1.0) * model->restPositions);
+    QVERIFY((convexHere - exactHere).norm() <= 1e-12 * exactHere.norm());
+    // Of what is pressed together in all directions, the stresses are.
+    if (membrane) QVERIFY(smallestEigenvalue(both(0.9 * model->restPositions)[0]) < 0);
   });
 }
 

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/scene/cloth_result.hpp"
 #include "core/scene/expected_values.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/study.hpp"
+#include "tests/core/geometry/brute_force_intersections.hpp"
 
 using namespace pliant;
 namespace fs = std::filesystem;
@@ -17,6 +19,29 @@ std::vector<fs::path> sceneFiles() {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
+}
+
+/// Looks at every frame of a cloth that must not go through itself or a body.
+void requireNoIntersection(const scene::ClothResult& result) {
+  const cloth::ClothProblem& problem = *result.problem;
+  if (!problem.selfContact) return;
+  std::vector<std::array<int, 3>> sheet;
+  for (const cloth::SheetTriangle& triangle : problem.sheet.triangles) sheet.push_back(triangle.nodes);
+  for (const auto& frame : result.frames) {
+    const Eigen::Index nodes = frame->positions.cols();
+    Eigen::Matrix3Xd all(3, nodes + frame->bodyPoints.cols());
+    all << frame->positions, frame->bodyPoints;
+    std::vector<std::array<int, 3>> triangles = sheet;
+    int first = static_cast<int>(nodes);
+    for (const cloth::Body& body : problem.bodies) {
+      for (const auto& [a, b, c] : body.triangles) triangles.push_back({first + a, first + b, first + c});
+      if (body.triangles.empty() && body.edges.empty())
+        for (Eigen::Index point = 0; point < body.points.cols(); ++point)
+          QVERIFY(distanceByBruteForce(frame->positions, sheet, all.col(first + point)) > body.radius);
+      first += static_cast<int>(body.points.cols());
+    }
+    QCOMPARE(countIntersectionsByBruteForce(all, triangles), 0);
+  }
 }
 
 }  // namespace
@@ -44,6 +69,10 @@ class TestShippedScenes : public QObject {
     base::ExecutionContext context;
     const auto result = scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), name)->run(context);
     QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    if (const auto* motion = dynamic_cast<const scene::ClothResult*>(result.get())) {
+      requireNoIntersection(*motion);
+      if (QTest::currentTestFailed()) return;
+    }
     const auto values = scene::compareWithExpected(scene, name, result->summary());
     QVERIFY(!values.empty());
     for (const scene::ExpectedValue& value : values)
