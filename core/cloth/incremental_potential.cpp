@@ -13,6 +13,7 @@ namespace {
 
 /// So many steps take the convex Hessian before the exact one is tried again.
 constexpr int convexInSuccession = 4;
+constexpr double farthestDescent = 64;  ///< times such a step
 /// Of the mass term, where even the convex Hessian is not positive definite: at first, by how much it grows, and the
 /// most.
 constexpr double firstShift = 1e-3;
@@ -166,11 +167,13 @@ bool IncrementalPotential::newtonStep(const Vector& x, const Vector& gradient, V
       step.segment<3>(3 * free_[i]) = solution.segment<3>(3 * static_cast<Eigen::Index>(i));
     return step.allFinite() && step.dot(gradient) < 0;
   };
-  if (convexSteps_ == 0) {
+  convex_ = convexSteps_ > 0;
+  if (!convex_) {
     shift_ = 0;
     evaluateHessian(x, mechanics::HessianKind::exact);
     if (descends()) return true;
     convexSteps_ = convexInSuccession;
+    convex_ = true;
   }
   --convexSteps_;
   evaluateHessian(x, mechanics::HessianKind::convex);
@@ -179,6 +182,17 @@ bool IncrementalPotential::newtonStep(const Vector& x, const Vector& gradient, V
        shift_ = std::max(firstShift, shift_ * shiftGrowth))
     if (descends()) return true;
   return false;
+}
+
+double IncrementalPotential::longestDescent(const Vector& x, const Vector& step, double energy) const {
+  double fraction = 1, reached = value(x + step);
+  while (reached < energy && fraction < farthestDescent) {
+    const double farther = value(x + 2 * fraction * step);
+    if (!(farther < reached)) break;
+    reached = farther;
+    fraction *= 2;
+  }
+  return fraction;
 }
 
 base::SolverReport IncrementalPotential::minimize(Vector& x, const NewtonOptions& options,
@@ -208,7 +222,7 @@ base::SolverReport IncrementalPotential::minimize(Vector& x, const NewtonOptions
       return finish(TerminationType::failed, "No direction lowers the energy of the step.");
     const double length = step.lpNorm<Eigen::Infinity>() / size_;
     const double decrease = -slope.dot(step);
-    double fraction = 1;
+    double fraction = convex_ ? longestDescent(x, step, energy) : 1;
     for (;; fraction *= 0.5) {
       const Vector trial = x + fraction * step;
       const double trialEnergy = value(trial);

@@ -79,6 +79,9 @@ class IncrementalPotential {
 
  private:
   double residualOf(const Vector& gradient) const;
+  /// The convex Hessian is stiffer than the exact one: doubles its step as long as that lowers Φ, which is `energy` at
+  /// x. Returns how many steps that is.
+  double longestDescent(const Vector& x, const Vector& step, double energy) const;
   void evaluateHessian(const Vector& x, mechanics::HessianKind kind);
   /// The factors of the Hessian last evaluated; false if it is not positive definite.
   bool factorize();
@@ -97,6 +100,7 @@ class IncrementalPotential {
   std::vector<Eigen::Index> slots_;                     ///< of each entry of the assembler in the factors, -1: held
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
   Vector entries_;                                      ///< the Hessian of the last step, without mass
+  bool convex_ = false;                                 ///< whether the last step took the convex Hessian
   int convexSteps_ = 0;                                 ///< for which the exact Hessian is not tried
   double shift_ = 0;                                    ///< of inertia, that the last factorisation needed
 };
