@@ -67,7 +67,7 @@ void MainWindow::showDrapes(bool shown) {
     docksBefore_ = saveState();
     pages_->setCurrentWidget(drapes_);
     for (QDockWidget* dock : docks_) dock->hide();
-    drapes_->fillAtFirst();
+    drapes_->fillAtFirst(DrapeGallery::shippedDrapes());
   } else {
     pages_->setCurrentWidget(document_.isEmpty() ? static_cast<QWidget*>(gallery_) : viewport_->parentWidget());
     restoreState(docksBefore_);
