@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,17 @@ struct MotionOptions {
 };
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
+
+/// How a whole motion becomes a video or numbered pictures.
+struct FilmSettings {
+  std::string size = "1280x720";
+  std::optional<double> picturesPerSecond;  ///< none: as recorded
+  std::optional<double> speed;              ///< times faster than life; none: see render::FilmOptions
+  int periods = 1;                          ///< of a periodic motion
+};
+/// Whether a file of this name is written by exportFilm.
+bool isFilm(const std::string& file);
+ExitStatus exportFilm(const MotionOptions& options, const FilmSettings& settings);
 
 /// Drapes side by side, with their limits.
 struct DrapesOptions {

@@ -86,10 +86,24 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--size", size, "Pixels, WIDTHxHEIGHT")->capture_default_str();
   verb->callback([&] { status = drapes(drapesOptions, size); });
 
-  verb = program.add_subcommand("export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF");
+  FilmSettings film;
+  verb = program.add_subcommand(
+      "export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF, or the whole motion as a video or pictures");
   addMotion(verb, motion);
-  verb->add_option("--out", motion.out, "Mesh file; its ending chooses the format")->required();
-  verb->callback([&] { status = exportMesh(motion); });
+  verb->add_option(
+          "--out", motion.out, "Mesh file, video (.ogv) or numbered pictures (.png); its ending chooses the format")
+      ->required();
+  verb->add_option("--size", film.size, "Pixels of a video or of pictures, WIDTHxHEIGHT")->capture_default_str();
+  verb->add_option("--fps", film.picturesPerSecond,
+                   "Pictures in a second; else a cloth's as its frames were recorded, and 30 of a periodic motion")
+      ->check(CLI::Range(0.01, 1000.0));
+  verb->add_option("--speed", film.speed,
+                   "Times faster than life; else a cloth moves in real time, and a period takes 2 seconds")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--periods", film.periods, "Periods of a periodic motion")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  verb->callback([&] { status = isFilm(motion.out) ? exportFilm(motion, film) : exportMesh(motion); });
 
   bool tables = false;
   verb = program.add_subcommand("schema", "Print the JSON Schema of scene files");

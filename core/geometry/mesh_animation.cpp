@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/pending_file.hpp"
 
 namespace pliant::geometry {
 
@@ -136,10 +136,7 @@ void writeAnimation(const MeshAnimation& animation, const std::filesystem::path&
   std::string middle;
   appendWord(middle, buffer.bytes().size());
   appendWord(middle, 0x004E4942);  // "BIN"
-  std::ofstream out(file, std::ios::binary);
-  out << head << text << middle << buffer.bytes();
-  out.close();
-  if (!out) throw base::InputError("", "The animation '" + file.string() + "' cannot be written.");
+  base::writeFile(file, head + text + middle + buffer.bytes());
 }
 
 }  // namespace pliant::geometry

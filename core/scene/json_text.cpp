@@ -1,7 +1,5 @@
 #include "core/scene/json_text.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/pending_file.hpp"
 
 namespace pliant::scene {
 
@@ -207,23 +206,6 @@ std::string readTextFile(const std::filesystem::path& file) {
   return std::move(text).str();
 }
 
-void writeTextFile(const std::filesystem::path& file, std::string_view text) {
-  std::filesystem::path temporary = file;
-  temporary += ".writing-" + std::to_string(::getpid());
-  std::error_code error;
-  {
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    stream.close();
-    if (!stream) {
-      std::filesystem::remove(temporary, error);
-      throw InputError(file.string(), "The file cannot be written.");
-    }
-  }
-  std::filesystem::rename(temporary, file, error);
-  if (!error) return;
-  std::filesystem::remove(temporary);
-  throw InputError(file.string(), "The file cannot be written: " + error.message() + ".");
-}
+void writeTextFile(const std::filesystem::path& file, std::string_view text) { base::writeFile(file, text); }
 
 }  // namespace pliant::scene

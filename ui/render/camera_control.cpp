@@ -107,6 +107,19 @@ void CameraControl::fit() {
   updateClipping();
 }
 
+CameraPose CameraControl::pose() const {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  return {vectorOf(camera->GetPosition()), vectorOf(camera->GetFocalPoint()), vectorOf(camera->GetViewUp())};
+}
+
+void CameraControl::setPose(const CameraPose& pose) {
+  vtkCamera* camera = renderer_->GetActiveCamera();
+  camera->SetPosition(pose.position.data());
+  camera->SetFocalPoint(pose.focus.data());
+  camera->SetViewUp(pose.up.data());
+  updateClipping();
+}
+
 void CameraControl::orbit(double dx, double dy) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   camera->Azimuth(-180.0 * dx);

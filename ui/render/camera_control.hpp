@@ -23,6 +23,8 @@ class CameraControl {
   void setUpAxis(bool isY) { upIsY_ = isY; }
   void setAxisView(AxisView view);
   void fit();
+  CameraPose pose() const;
+  void setPose(const CameraPose& pose);
   void orbit(double dx, double dy);
   void pan(double dx, double dy);
   void zoom(double factor, double x, double y);

@@ -321,6 +321,10 @@ void ClothView::setField(ClothField field) {
   parts_->showField();
 }
 
+ClothField ClothView::field() const { return parts_->field; }
+
+bool ClothView::directionsVisible() const { return parts_->directionsVisible; }
+
 void ClothView::setDirectionsVisible(bool visible) {
   parts_->directionsVisible = visible;
   parts_->showDirections();

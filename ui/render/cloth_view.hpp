@@ -40,8 +40,10 @@ class ClothView final : public View {
   /// Greys the sheet: inputs have changed since.
   void setStale(bool stale);
   void setField(ClothField field);
+  ClothField field() const;
   /// Short lines along the first material direction of some triangles (off at first).
   void setDirectionsVisible(bool visible);
+  bool directionsVisible() const;
   void setSelectedNode(std::optional<int> node);
   std::optional<int> selectedNode() const;
   /// Marks nodes that hands hold, each with a line to its hand where that is elsewhere.

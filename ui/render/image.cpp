@@ -1,20 +1,17 @@
 #include "ui/render/image.hpp"
 
-#include <unistd.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cstring>
-#include <fstream>
-#include <string>
 
-#include "core/base/error.hpp"
+#include "core/base/pending_file.hpp"
 
 namespace pliant::render {
 
-void writePng(const Image& image, const std::filesystem::path& file) {
+std::string pngOf(const Image& image) {
   vtkNew<vtkImageData> pixels;
   pixels->SetDimensions(image.width, image.height, 1);
   pixels->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -26,21 +23,10 @@ void writePng(const Image& image, const std::filesystem::path& file) {
   writer->WriteToMemoryOn();
   writer->SetInputData(pixels);
   writer->Write();
-  const vtkUnsignedCharArray* bytes = writer->GetResult();
-
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(getpid()) + ".tmp";
-  std::error_code failure;
-  if (std::ofstream stream(temporary, std::ios::binary);
-      !stream.write(reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
-                    bytes->GetNumberOfValues()) ||
-      !stream.flush())
-    failure = std::make_error_code(std::errc::io_error);
-  if (!failure) std::filesystem::rename(temporary, file, failure);
-  if (failure) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw base::InputError(file.string(), "the picture cannot be written here");
-  }
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
+
+void writePng(const Image& image, const std::filesystem::path& file) { base::writeFile(file, pngOf(image)); }
 
 }  // namespace pliant::render

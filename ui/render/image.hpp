@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace pliant::render {
@@ -15,6 +16,9 @@ struct Image {
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< 4 * width * height
 };
+
+/// The bytes of a PNG file.
+std::string pngOf(const Image& image);
 
 /// Writes a PNG file atomically (a temporary file beside it that is renamed). Throws base::InputError if the file
 /// cannot be written.

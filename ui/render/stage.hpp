@@ -33,6 +33,7 @@ class Stage {
 
   void attach(vtkRenderWindow* window);
   void setCaption(const std::string& text);
+  const std::string& caption() const { return captionText_; }
   /// Below the caption; empty: none.
   void setNotice(const std::string& text, const Color& color);
   void setTheme(Theme theme);

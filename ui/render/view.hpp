@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,11 @@ namespace pliant::render {
 
 /// Where the camera looks from.
 enum class AxisView { front, back, right, left, top, bottom, isometric };
+
+/// Where a camera stands [m].
+struct CameraPose {
+  Eigen::Vector3d position, focus, up;
+};
 
 class Stage;
 
@@ -27,9 +33,11 @@ class View {
   void attach(vtkRenderWindow* window);
   /// The small label in the top left corner; lines separated by '\n'; empty: none.
   void setCaption(const std::string& text);
+  std::string caption() const;
   void setTheme(Theme theme);
   /// Colours surfaces by their field, with the scalar bar (on at first).
   void setFieldVisible(bool visible);
+  bool fieldVisible() const;
   /// Without scalar bar, gizmo and labels, to stand in a figure.
   void setFrameless(bool frameless);
   /// Pixels per device-independent pixel: scales text, lines and markers.
@@ -41,6 +49,8 @@ class View {
   /// Looks at everything the motion reaches.
   void fit();
   void setAxisView(AxisView view);
+  CameraPose cameraPose() const;
+  void setCameraPose(const CameraPose& pose);
   /// Turns about the middle of the view; fractions of the window's height (a whole height: 180°), x to the right, y
   /// down.
   void orbit(double dx, double dy);

@@ -89,11 +89,17 @@ DrapeGallery::DrapeGallery(jobs::JobRunner& studies, jobs::JobRunner& quick, QWi
           });
 }
 
-void DrapeGallery::fillAtFirst() {
+QStringList DrapeGallery::shippedDrapes() {
+  QStringList files;
+  for (const char* name : {"drape_isotropic", "drape_orthotropic", "drape_curve"})
+    files << shippedFile(QStringLiteral("scenes/cloth/%1.json").arg(QLatin1String(name)));
+  return files;
+}
+
+void DrapeGallery::fillAtFirst(const QStringList& scenes) {
   if (filled_ || !entries_.empty()) return;
   filled_ = true;
-  for (const char* name : {"drape_isotropic", "drape_orthotropic", "drape_curve"})
-    addScene(shippedFile(QStringLiteral("scenes/cloth/%1.json").arg(QLatin1String(name))));
+  for (const QString& file : scenes) addScene(file);
 }
 
 DrapeGallery::Entry& DrapeGallery::append(const render::Drape& drape) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QImage>
+#include <QStringList>
 #include <QWidget>
 #include <vector>
 
@@ -25,8 +26,10 @@ class DrapeGallery final : public QWidget {
   /// The first drape, or motion, of a scene; computes it.
   void addScene(const QString& file);
   void remove(int index);
-  /// The shipped drapes, unless there is something already or they have been removed.
-  void fillAtFirst();
+  /// The scenes of Fig. 3.2 that come with Pliant.
+  static QStringList shippedDrapes();
+  /// Adds scenes, unless there is something already or this was done before.
+  void fillAtFirst(const QStringList& scenes);
   /// Ends what is being computed; what there is stays.
   void cancel();
 

@@ -1,14 +1,18 @@
 #include "ui/shell/exporter.hpp"
 
+#include <QCoreApplication>
 #include <QFileInfo>
 #include <QImage>
 #include <QSaveFile>
 #include <QTextStream>
+#include <filesystem>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/geometry/mesh_animation.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/scene/model_builder.hpp"
+#include "ui/render/film.hpp"
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::shell {
@@ -61,6 +65,87 @@ void writeCurve(const QString& file, const document::Document& document, const s
   if (!out.commit()) fail(file, QStringLiteral("The file cannot be written."));
 }
 
+FrameExport filmExport(const std::filesystem::path& file, const jobs::MotionSession& session,
+                       const viewport::Viewport& viewport) {
+  render::FilmOptions film = viewport.filmOptions();
+  if (viewport.showsCloth())
+    return [file, film, problem = viewport.clothProblem(), frames = viewport.clothFrames(),
+            clock = viewport.frameClock()](base::ExecutionContext& context) {
+      const auto made = render::filmCloth(problem, frames, clock, film, file, context);
+      return made ? made->files : 0;
+    };
+  const jobs::ShownMotion& shown = *session.shown();
+  const double period = 2 * std::numbers::pi * shown.problem->drivePeriods() / shown.motion.omega;
+  film.speed = viewport.speed() * period;
+  return [file, film, period, problem = shown.problem, z = shown.motion.z](base::ExecutionContext& context) {
+    const auto made = render::filmMotion(problem, z, period, film, file, context);
+    return made ? made->files : 0;
+  };
+}
+
+FrameExport animationExport(const std::filesystem::path& file, const viewport::Viewport& viewport) {
+  return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
+    geometry::MeshAnimation animation;
+    animation.triangles = frameMesh(*problem, *frames.front()).triangles;
+    for (const auto& frame : frames) {
+      if (context.cancelRequested()) return 0;
+      animation.frames.push_back(frameMesh(*problem, *frame).points);
+      animation.times.push_back(frame->time);
+    }
+    geometry::writeAnimation(animation, file);
+    return 1;
+  };
+}
+
+/// Written into a folder that goes in any case; the meshes are taken out of it when all are there.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::filesystem::path& file)
+      : path_(file.parent_path() /
+              ("." + file.filename().string() + ".writing-" + std::to_string(QCoreApplication::applicationPid()))) {
+    std::error_code error;
+    std::filesystem::create_directory(path_, error);
+    if (error) throw base::InputError(file.string(), "The files cannot be written: " + error.message() + ".");
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void emptyInto(const std::filesystem::path& place) const {
+    const std::vector<std::filesystem::path> files(std::filesystem::directory_iterator(path_), {});
+    for (const std::filesystem::path& file : files) {
+      std::error_code error;
+      std::filesystem::rename(file, place / file.filename(), error);
+      if (error) throw base::InputError((place / file.filename()).string(), error.message() + ".");
+    }
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+FrameExport meshExport(const std::filesystem::path& file, const viewport::Viewport& viewport) {
+  return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
+    const TemporaryFolder folder(file);
+    int written = 0;
+    for (const auto& frame : frames) {
+      if (context.cancelRequested()) return 0;
+      const QString name = QStringLiteral("%1_%2%3")
+                               .arg(QString::fromStdString(file.stem().string()))
+                               .arg(written++, 5, 10, QLatin1Char('0'))
+                               .arg(QString::fromStdString(file.extension().string()));
+      geometry::writeMesh(frameMesh(*problem, *frame), folder.path() / name.toStdString());
+      context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.size()));
+    }
+    folder.emptyInto(file.parent_path());
+    return written;
+  };
+}
+
 }  // namespace
 
 QString exportFilters() {
@@ -85,40 +170,25 @@ void exportTo(const QString& file, const document::Document& document, const job
   }
 }
 
-QString frameExportFilters() { return QStringLiteral("Animation (*.glb);;Numbered meshes (*.obj *.ply *.stl)"); }
+QString frameExportFilters(const viewport::Viewport& viewport) {
+  const QString films = QStringLiteral("Video (*.ogv);;Numbered pictures (*.png)");
+  return viewport.showsCloth() ? films + QStringLiteral(";;Animation (*.glb);;Numbered meshes (*.obj *.ply *.stl)")
+                               : films;
+}
 
-std::function<int(base::ExecutionContext&)> frameExport(const QString& file, viewport::Viewport& viewport) {
-  if (!viewport.showsCloth() || viewport.clothFrames().empty())
-    fail(file, QStringLiteral("There are no frames of a cloth to export yet: run its study first."));
-  const QFileInfo target(file);
-  const QString suffix = target.suffix().toLower();
-  const auto problem = viewport.clothProblem();
-  const auto frames = viewport.clothFrames();
-  if (suffix == QLatin1String("glb"))
-    return [problem, frames, file](base::ExecutionContext&) {
-      geometry::MeshAnimation animation;
-      animation.triangles = frameMesh(*problem, *frames.front()).triangles;
-      for (const auto& frame : frames) {
-        animation.frames.push_back(frameMesh(*problem, *frame).points);
-        animation.times.push_back(frame->time);
-      }
-      geometry::writeAnimation(animation, file.toStdString());
-      return 1;
-    };
-  if (suffix != QLatin1String("obj") && suffix != QLatin1String("ply") && suffix != QLatin1String("stl"))
-    fail(file, QStringLiteral("The file's name must end in .glb, .obj, .ply or .stl."));
-  return [problem, frames, suffix,
-          base = target.absolutePath() + '/' + target.completeBaseName()](base::ExecutionContext& context) {
-    int written = 0;
-    for (const auto& frame : frames) {
-      if (context.cancelRequested()) break;
-      const QString name = QStringLiteral("%1_%2.%3").arg(base).arg(written, 5, 10, QLatin1Char('0')).arg(suffix);
-      geometry::writeMesh(frameMesh(*problem, *frame), name.toStdString());
-      ++written;
-      context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.size()), "");
-    }
-    return written;
-  };
+FrameExport frameExport(const QString& file, const jobs::MotionSession& session, const viewport::Viewport& viewport) {
+  const QString suffix = QFileInfo(file).suffix().toLower();
+  if (viewport.isLive()) fail(file, QStringLiteral("A live cloth has no frames to export until it is recorded."));
+  const bool cloth = viewport.showsCloth() && !viewport.clothFrames().empty();
+  const bool film = suffix == QLatin1String("ogv") || suffix == QLatin1String("png");
+  if (!cloth && (viewport.showsCloth() || !session.shown()))
+    fail(file, QStringLiteral("There is no motion to export yet: run its study first."));
+  if (film) return filmExport(file.toStdString(), session, viewport);
+  if (!cloth) fail(file, QStringLiteral("The file's name must end in .ogv or .png."));
+  if (suffix == QLatin1String("glb")) return animationExport(file.toStdString(), viewport);
+  if (suffix == QLatin1String("obj") || suffix == QLatin1String("ply") || suffix == QLatin1String("stl"))
+    return meshExport(file.toStdString(), viewport);
+  fail(file, QStringLiteral("The file's name must end in .ogv, .png, .glb, .obj, .ply or .stl."));
 }
 
 }  // namespace pliant::shell

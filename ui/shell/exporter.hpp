@@ -20,12 +20,16 @@ QString exportFilters();
 void exportTo(const QString& file, const document::Document& document, const jobs::MotionSession& session,
               const std::string& study, viewport::Viewport& viewport);
 
-/// The name filters of the dialog that exports all frames.
-QString frameExportFilters();
+/// The name filters of the dialog that exports all of a motion.
+QString frameExportFilters(const viewport::Viewport& viewport);
 
-/// All frames of the cloth on show, to be written on any thread: into one animated file (glb), or into numbered files
-/// beside `file` (obj, ply, stl): sheet.obj gives sheet_00000.obj, ... Throws base::InputError if there is no cloth, or
-/// for another extension; the work does so too, and returns how many files it wrote.
-std::function<int(base::ExecutionContext&)> frameExport(const QString& file, viewport::Viewport& viewport);
+/// Work for any thread; returns how many files it wrote, 0 once cancelled. Throws base::InputError.
+using FrameExport = std::function<int(base::ExecutionContext&)>;
+
+/// All frames of the cloth on show, or one period of the motion on show: as a video (ogv) or numbered pictures (png:
+/// sheet.png gives sheet_00000.png, ...) that look and play as the viewport does, and of a cloth as one animated file
+/// (glb) or numbered meshes (obj, ply, stl). A cancelled or failed export leaves no file. Throws base::InputError if
+/// nothing moves, or for another extension.
+FrameExport frameExport(const QString& file, const jobs::MotionSession& session, const viewport::Viewport& viewport);
 
 }  // namespace pliant::shell

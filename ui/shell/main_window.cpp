@@ -87,9 +87,11 @@ MainWindow::~MainWindow() {
   quickJobs_.disconnect(status_);
   drapeJobs_.disconnect();
   sceneJobs_.disconnect(status_);
+  exportJobs_.disconnect(status_);
   studyJobs_.disconnect(this);
   quickJobs_.disconnect(this);
   sceneJobs_.disconnect(this);
+  exportJobs_.disconnect(this);
   delete takeCentralWidget();
   for (QDockWidget* dock : docks_) delete dock;
 }
@@ -185,23 +187,27 @@ void MainWindow::connectParts() {
   status_->watch(sceneJobs_);
   status_->watch(drapeJobs_);
   status_->watch(quickJobs_);
+  status_->watch(exportJobs_);
   connect(status_, &JobStatus::cancelRequested, this, &MainWindow::cancel);
   document_.setBackground([this](document::BackgroundWork work) {
     sceneJobs_.submit({QStringLiteral("edit"), tr("Building the model"),
                        [work = std::move(work)](base::ExecutionContext&, const jobs::Publish&) { return work(); }});
   });
   connect(&document_, &document::Document::editingChanged, this, &MainWindow::refreshActions);
-  connect(&sceneJobs_, &jobs::JobRunner::finished, this,
-          [this](jobs::JobRunner::Id, const QString&, jobs::JobOutcome outcome, const QString& sentence) {
-            if (outcome == jobs::JobOutcome::failed) report(base::Severity::warning, sentence);
-          });
+  for (jobs::JobRunner* runner : {&sceneJobs_, &exportJobs_})
+    connect(runner, &jobs::JobRunner::finished, this,
+            [this](jobs::JobRunner::Id, const QString&, jobs::JobOutcome outcome, const QString& sentence) {
+              if (outcome == jobs::JobOutcome::failed) report(base::Severity::warning, sentence);
+            });
+  connect(&exportJobs_, &jobs::JobRunner::started, this, &MainWindow::refreshActions);
+  connect(&exportJobs_, &jobs::JobRunner::finished, this, &MainWindow::refreshActions);
   connect(gallery_, &Gallery::sceneChosen, this, [this](const QString& file) { openFile(file, true); });
   connect(gallery_, &Gallery::openRequested, this, &MainWindow::chooseFile);
   connect(tree_, &panels::SceneTree::studyActivated, this, [this](const std::string& name) { session_.run({name}); });
   connect(&session_, &jobs::MotionSession::nodeChanged, tree_, &panels::SceneTree::setSelectedNode);
   connect(response_, &panels::ResponsePanel::readoutChanged, readout_, &QLabel::setText);
   connect(&document_, &document::Document::messageRaised, this, &MainWindow::report);
-  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_, &drapeJobs_, &sceneJobs_})
+  for (jobs::JobRunner* runner : {&studyJobs_, &quickJobs_, &drapeJobs_, &sceneJobs_, &exportJobs_})
     connect(runner, &jobs::JobRunner::logged, this, [this](base::Severity severity, const QString& sentence) {
       if (severity == base::Severity::warning)
         report(severity, sentence);
@@ -248,6 +254,7 @@ void MainWindow::cancel() {
   document_.cancelEdits();
   sceneJobs_.cancelTopic(openTopic);
   drapes_->cancel();
+  exportJobs_.cancelAll();
 }
 
 void MainWindow::chooseFile() {

@@ -68,6 +68,9 @@ class MainWindow final : public QMainWindow {
   panels::EnergyPanel& energies() { return *energies_; }
   DrapeGallery& drapes() { return *drapes_; }
 
+  /// See frameExport; a message says what came of it.
+  void exportFramesTo(const QString& file);
+
   QSize sizeHint() const override { return {1280, 800}; }
 
  protected:
@@ -121,8 +124,9 @@ class MainWindow final : public QMainWindow {
   document::Document document_;
   jobs::JobRunner studyJobs_;
   jobs::JobRunner quickJobs_;
-  jobs::JobRunner drapeJobs_;  ///< computes drapes that are compared
-  jobs::JobRunner sceneJobs_;  ///< reads scenes and builds models, so that neither waits for a solve
+  jobs::JobRunner drapeJobs_;   ///< computes drapes that are compared
+  jobs::JobRunner sceneJobs_;   ///< reads scenes and builds models, so that neither waits for a solve
+  jobs::JobRunner exportJobs_;  ///< draws videos, which nothing waits for
   jobs::StudyRunner studies_;
   jobs::MotionSession session_;
   jobs::ClothSession live_;

@@ -241,13 +241,14 @@ void MainWindow::refreshActions() {
   const bool editing = document_.isEditing();
   for (const char* id : {"file.export", "view.fit", "model.nextProbe"}) enable(id, open);
   for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
+  enable("file.exportFrames", session_.shown().has_value() || viewport_->showsCloth());
   enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
   actions_.find(QStringLiteral("view.drapes"))->setChecked(pages_->currentIndex() == 2);
   enable("live.open", liveBar_ && !liveBar_->study().empty());
   for (const char* id : {"live.step", "live.reset", "live.record"}) enable(id, live_.isOpen());
   enable("study.run", open && !document_.studies().empty() && !busy && !editing);
   enable("study.update", open && session_.isStale() && !busy && !editing);
-  enable("study.cancel", busy || editing);
+  enable("study.cancel", busy || editing || !exportJobs_.isIdle());
   const QUndoStack& stack = document_.undoStack();
   enable("edit.undo", stack.canUndo() || editing);
   enable("edit.redo", stack.canRedo() && !editing);

@@ -42,7 +42,7 @@ void MainWindow::makeClothActions() {
                 tr("Export &Frames…"),
                 {},
                 {},
-                tr("Export all frames of a cloth as an animation or as numbered meshes")},
+                tr("Export all of a motion as a video or numbered pictures, and of a cloth as meshes")},
                [this] { exportFrames(); });
 }
 
@@ -67,7 +67,7 @@ void MainWindow::showDrapes(bool shown) {
     docksBefore_ = saveState();
     pages_->setCurrentWidget(drapes_);
     for (QDockWidget* dock : docks_) dock->hide();
-    drapes_->fillAtFirst();
+    drapes_->fillAtFirst(DrapeGallery::shippedDrapes());
   } else {
     pages_->setCurrentWidget(document_.isEmpty() ? static_cast<QWidget*>(gallery_) : viewport_->parentWidget());
     restoreState(docksBefore_);
@@ -135,24 +135,29 @@ void MainWindow::openLive() {
   live_.setPlaying(true);
 }
 
-/// The frames are written in the background; one sentence says how many there are.
+/// Files are written in the background; one sentence says how many there are.
 void MainWindow::exportFrames() {
-  const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral(".glb");
-  const QString file = QFileDialog::getSaveFileName(this, tr("Export all frames"), name, frameExportFilters());
-  if (file.isEmpty()) return;
+  const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral(".ogv");
+  const QString file =
+      QFileDialog::getSaveFileName(this, tr("Export the motion"), name, frameExportFilters(*viewport_));
+  if (!file.isEmpty()) exportFramesTo(file);
+}
+
+void MainWindow::exportFramesTo(const QString& file) {
   try {
     jobs::Job job;
-    job.topic = QStringLiteral("export frames");
+    job.topic = QStringLiteral("export ") + file;
     job.title = tr("Export %1").arg(QFileInfo(file).fileName());
-    job.work = [this, file, work = frameExport(file, *viewport_)](
+    job.work = [this, file, work = frameExport(file, session_, *viewport_)](
                    base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
       const int count = work(context);
+      if (count == 0) return {};
       return [this, file, count] {
         report(base::Severity::information,
                count == 1 ? tr("Exported to %1.").arg(file) : tr("Exported %1 files beside %2.").arg(count).arg(file));
       };
     };
-    sceneJobs_.submit(std::move(job));
+    exportJobs_.submit(std::move(job));
   } catch (const base::InputError& error) {
     report(base::Severity::warning, QString::fromStdString(error.what()));
   }

@@ -282,10 +282,13 @@ void Viewport::settle() {
   surface_->requestRender();
 }
 
+render::Theme Viewport::theme() const {
+  return palette().color(QPalette::Window).lightnessF() < 0.5 ? render::Theme::dark : render::Theme::light;
+}
+
 void Viewport::applyTheme() {
-  const bool dark = palette().color(QPalette::Window).lightnessF() < 0.5;
   for (render::View* view : {static_cast<render::View*>(&motion_), static_cast<render::View*>(&cloth_)})
-    view->setTheme(dark ? render::Theme::dark : render::Theme::light);
+    view->setTheme(theme());
   redraw();
 }
 

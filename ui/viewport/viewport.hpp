@@ -10,6 +10,7 @@
 
 #include "core/harmonic/harmonic_balance_problem.hpp"
 #include "ui/render/cloth_view.hpp"
+#include "ui/render/film.hpp"
 #include "ui/render/motion_view.hpp"
 
 namespace pliant::viewport {
@@ -44,8 +45,7 @@ class Viewport : public QWidget {
   bool showsCloth() const { return view_ == &cloth_; }
   render::ClothView& clothView() { return cloth_; }
   std::shared_ptr<const cloth::ClothProblem> clothProblem() const { return clothProblem_; }
-  /// What a frame's time counts.
-  enum class FrameClock { seconds, steps };
+  using FrameClock = render::FrameClock;
   /// All frames of the cloth. While they grow the newest is shown, unless another one was chosen.
   void setClothFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames, bool growing, FrameClock clock);
   const std::vector<std::shared_ptr<const scene::ClothFrame>>& clothFrames() const { return frames_; }
@@ -76,6 +76,8 @@ class Viewport : public QWidget {
   /// While things move, a processor that draws in software leaves edges rough, and smooths them a moment after. This
   /// does it at once: for pictures.
   void settle();
+  /// What makes a film look and play as this does: camera, colours, caption and speed; at least 720 pixels high.
+  render::FilmOptions filmOptions() const;
   /// The settled picture at the screen's resolution.
   QImage grabImage();
 
@@ -130,6 +132,7 @@ class Viewport : public QWidget {
   /// `moving`: more of the kind is to come soon.
   void redraw(bool moving = false);
   void applyTheme();
+  render::Theme theme() const;
 
   render::MotionView motion_;
   render::ClothView cloth_;

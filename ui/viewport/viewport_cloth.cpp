@@ -5,12 +5,6 @@
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::viewport {
-namespace {
-
-constexpr double stepsPerSecond = 5;  ///< of a drape, whose clock counts load steps
-
-}  // namespace
-
 void Viewport::showView(render::View& view) {
   if (view_ == &view) return;
   view_->attach(nullptr);
@@ -76,7 +70,8 @@ void Viewport::setTime(double time) {
 
 void Viewport::advanceCloth(double seconds) {
   if (frames_.empty()) return;
-  const double next = time_ + clothSpeed_ * seconds * (frameClock_ == FrameClock::steps ? stepsPerSecond : 1);
+  const double next =
+      time_ + clothSpeed_ * seconds * (frameClock_ == FrameClock::steps ? render::drapeStepsPerSecond : 1);
   const bool ended = time_ >= duration();
   // The last frame is seen before it begins again; of a study that runs it waits for the next.
   setTime(ended && !growing_ ? 0 : next);

@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QDir>
 #include <QDockWidget>
 #include <QFile>
@@ -10,6 +11,7 @@
 #include "tests/ui/panels/sheet_scene.hpp"
 #include "ui/panels/energy_panel.hpp"
 #include "ui/panels/limit_panel.hpp"
+#include "ui/panels/message_bar.hpp"
 #include "ui/plots/polar_editor.hpp"
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/main_window.hpp"
@@ -88,20 +90,60 @@ class TestClothWindow : public QObject {
   void framesAreExported() {
     QVERIFY(window_->document().open(folder_.filePath("sheet.json")));
     base::ExecutionContext context;
-    QVERIFY_EXCEPTION_THROWN(shell::frameExport(folder_.filePath("none.glb"), window_->viewport()), base::InputError);
+    const auto exported = [&](const char* name) {
+      return shell::frameExport(folder_.filePath(name), window_->session(), window_->viewport());
+    };
+    QVERIFY_EXCEPTION_THROWN(exported("none.glb"), base::InputError);
+    QVERIFY_EXCEPTION_THROWN(exported("none.ogv"), base::InputError);
     window_->session().run({"swing"});
     QTRY_VERIFY_WITH_TIMEOUT(window_->document().study("swing")->status == document::StudyStatus::solved, patience);
     const int frames = static_cast<int>(window_->viewport().clothFrames().size());
-    QCOMPARE(shell::frameExport(folder_.filePath("a.glb"), window_->viewport())(context), 1);
+    QCOMPARE(exported("a.glb")(context), 1);
     QVERIFY(QFileInfo(folder_.filePath("a.glb")).size() > 1000);
-    QCOMPARE(shell::frameExport(folder_.filePath("b.obj"), window_->viewport())(context), frames);
+    QCOMPARE(exported("b.obj")(context), frames);
     QCOMPARE(QDir(folder_.path()).entryList({"b_*.obj"}).size(), frames);
-    QVERIFY_EXCEPTION_THROWN(shell::frameExport(folder_.filePath("c.avi"), window_->viewport()), base::InputError);
+    QVERIFY_EXCEPTION_THROWN(exported("c.avi"), base::InputError);
+    QCOMPARE(exported("e.png")(context), frames);
+    QCOMPARE(QDir(folder_.path()).entryList({"e_*.png"}).size(), frames);
+    base::ExecutionContext cancelled;
+    cancelled.requestCancel();
+    const QStringList before = QDir(folder_.path()).entryList(QDir::AllEntries | QDir::Hidden);
+    for (const char* name : {"f.ogv", "f.png", "f.glb", "f.obj"}) QCOMPARE(exported(name)(cancelled), 0);
+    QCOMPARE(QDir(folder_.path()).entryList(QDir::AllEntries | QDir::Hidden), before);
     // The frame on show, as a mesh.
     window_->viewport().pause();
     window_->viewport().setTime(0.2);
     shell::exportTo(folder_.filePath("d.ply"), window_->document(), window_->session(), {}, window_->viewport());
     QVERIFY(QFileInfo(folder_.filePath("d.ply")).size() > 500);
+  }
+
+  /// In the background, while the window goes on.
+  void videosAreExported() {
+    QVERIFY(window_->document().open(folder_.filePath("sheet.json")));
+    window_->session().run({"swing"});
+    QTRY_VERIFY_WITH_TIMEOUT(window_->document().study("swing")->status == document::StudyStatus::solved, patience);
+    auto* cancel = window_->findChild<QAction*>("study.cancel");
+    QVERIFY(cancel && !cancel->isEnabled());
+    const auto said = [&](const char* words) { return window_->messages().sentence().contains(QLatin1String(words)); };
+    window_->exportFramesTo(folder_.filePath("sheet.ogv"));
+    QTRY_VERIFY(cancel->isEnabled());
+    QVERIFY(!QFileInfo::exists(folder_.filePath("sheet.ogv")));
+    QTRY_VERIFY_WITH_TIMEOUT(said("Exported to"), patience);
+    QFile video(folder_.filePath("sheet.ogv"));
+    QVERIFY(video.open(QIODevice::ReadOnly) && video.read(4) == "OggS" && video.size() > 5000);
+    QTRY_VERIFY(!cancel->isEnabled());
+    // What is cancelled leaves nothing.
+    window_->viewport().setClothSpeed(1e-3);  // which takes a thousand pictures
+    const QStringList before = QDir(folder_.path()).entryList(QDir::AllEntries | QDir::Hidden);
+    window_->exportFramesTo(folder_.filePath("long.ogv"));
+    QTRY_VERIFY(cancel->isEnabled());
+    cancel->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(!cancel->isEnabled(), patience);
+    QCOMPARE(QDir(folder_.path()).entryList(QDir::AllEntries | QDir::Hidden), before);
+    window_->exportFramesTo(folder_.filePath("nowhere/sheet.ogv"));
+    QTRY_VERIFY_WITH_TIMEOUT(said("No such file or directory"), patience);
+    window_->exportFramesTo(folder_.filePath("sheet.avi"));
+    QVERIFY(said("must end in .ogv, .png"));
   }
 
  private:

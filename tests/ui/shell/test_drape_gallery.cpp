@@ -1,3 +1,4 @@
+#include <QFileInfo>
 #include <QImage>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -33,8 +34,22 @@ class TestDrapeGallery : public QObject {
     studies_.reset();
   }
 
-  void theShippedDrapesAreThereAtFirst() {
-    gallery_->fillAtFirst();
+  /// The same scenes on coarse meshes, which hang within a second.
+  void initTestCase() {
+    const QStringList shipped = DrapeGallery::shippedDrapes();
+    QCOMPARE(shipped.size(), 3);
+    for (const QString& file : shipped) {
+      const scene::Scene fine = scene::Scene::load(file.toStdString());
+      QVERIFY(fine.normalized()["studies"][0]["type"] == "cloth_drape");
+      coarse_ << folder_.filePath(QFileInfo(file).fileName());
+      fine.withValue("/geometry/0/length_cells", 6)
+          .withValue("/geometry/0/width_cells", 6)
+          .save(coarse_.back().toStdString());
+    }
+  }
+
+  void whatItIsFilledWithIsThereAtFirst() {
+    gallery_->fillAtFirst(coarse_);
     QCOMPARE(gallery_->drapes().size(), std::size_t(3));
     QTRY_VERIFY_WITH_TIMEOUT(!gallery_->isComputing(), patience);
     for (const render::Drape& drape : gallery_->drapes()) {
@@ -44,7 +59,7 @@ class TestDrapeGallery : public QObject {
     }
     // Once they have been removed they do not come back by themselves.
     for (int i = 0; i < 3; ++i) gallery_->remove(0);
-    gallery_->fillAtFirst();
+    gallery_->fillAtFirst(coarse_);
     QVERIFY(gallery_->drapes().empty());
   }
 
@@ -93,8 +108,9 @@ class TestDrapeGallery : public QObject {
   }
 
   void itEndsWhileItComputes() {
-    gallery_->fillAtFirst();
+    gallery_->fillAtFirst(DrapeGallery::shippedDrapes());
     QTest::qWait(200);
+    QVERIFY(gallery_->isComputing());
     gallery_->remove(1);
     gallery_->cancel();
     QTRY_VERIFY_WITH_TIMEOUT(!gallery_->isComputing(), patience);
@@ -105,6 +121,7 @@ class TestDrapeGallery : public QObject {
  private:
   render::HangingSheet sheet_;
   QTemporaryDir folder_;
+  QStringList coarse_;
   std::unique_ptr<jobs::JobRunner> studies_, quick_;
   std::unique_ptr<DrapeGallery> gallery_;
 };

@@ -1,4 +1,6 @@
+#include <QImage>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
 
@@ -26,6 +28,39 @@ class TestViewportCloth : public QObject {
     viewport_->setCloth(sheet_.problem);
   }
   void cleanup() { viewport_.reset(); }
+
+  /// What is exported is what is on the screen, from where it is seen.
+  void filmsLookLikeTheViewport() {
+    viewport_->resize(800, 720);
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    viewport_->setCaption("Sheet");
+    viewport_->setSelectedNode(20);
+    viewport_->clothView().setField(render::ClothField::limitForce);
+    viewport_->clothView().setDirectionsVisible(true);
+    viewport_->setAxisView(render::AxisView::right);
+    viewport_->clothView().orbit(0.1, 0.05);
+    viewport_->clothView().zoom(1.2, 300, 200);
+    viewport_->setClothSpeed(0.5);
+    viewport_->setTime(1);
+    const render::FilmOptions options = viewport_->filmOptions();
+    QCOMPARE(options.picture.width, 800);
+    QCOMPARE(options.picture.height, 720);
+    QCOMPARE(options.picture.caption, std::string("Sheet"));
+    QTemporaryDir folder;
+    base::ExecutionContext context;
+    const auto film = render::filmCloth(
+        sheet_.problem, sheet_.frames, FrameClock::seconds, options, folder.filePath("a.png").toStdString(), context);
+    QCOMPARE(film->rate.perSecond(), 5.0);  // frames of 10 Hz at half the speed
+    const QImage last = QImage(folder.filePath("a_00010.png")).convertToFormat(QImage::Format_RGB32);
+    const QImage screen = viewport_->grabImage().convertToFormat(QImage::Format_RGB32);
+    const QRect belowCaption(0, 80, 800, 640);  // the film's has the time as well
+    QVERIFY(last.copy(belowCaption) == screen.copy(belowCaption));
+    QVERIFY(last != screen);
+    // A small viewport makes a film that is large enough, with the same in view.
+    viewport_->resize(400, 301);
+    QCOMPARE(viewport_->filmOptions().picture.height, 720);
+    QCOMPARE(viewport_->filmOptions().picture.width, 956);
+  }
 
   void timeChoosesTheFrame() {
     viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
