@@ -1,5 +1,5 @@
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include "core/geometry/surface_mesh.hpp"
 #include "core/scene/format_tables.hpp"

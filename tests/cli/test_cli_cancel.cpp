@@ -1,7 +1,8 @@
 #include <signal.h>
 
+#include <QProcess>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include "core/scene/json_text.hpp"
 #include "core/scene/study.hpp"

@@ -1,5 +1,5 @@
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include "core/scene/json_text.hpp"
 #include "tests/cli/cli_process.hpp"

@@ -1,8 +1,9 @@
 #include <signal.h>
 
 #include <QDir>
+#include <QProcess>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 #include <algorithm>
 #include <set>
 

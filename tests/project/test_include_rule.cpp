@@ -1,8 +1,11 @@
+#include <QDir>
 #include <QDirIterator>
 #include <QFile>
+#include <QIODevice>
 #include <QLibraryInfo>
+#include <QMap>
 #include <QRegularExpression>
-#include <QtTest>
+#include <QTest>
 
 namespace {
 

@@ -4,8 +4,10 @@
 #include <sys/resource.h>
 
 #include <QDir>
+#include <QFile>
+#include <QIODevice>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 #include <vector>
 
 #include "core/base/error.hpp"

@@ -1,5 +1,5 @@
 #include <Eigen/LU>
-#include <QtTest>
+#include <QTest>
 
 #include "core/base/error.hpp"
 #include "core/cloth/cloth_drape.hpp"

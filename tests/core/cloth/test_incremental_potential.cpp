@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "tests/core/cloth/cloth_examples.hpp"
 

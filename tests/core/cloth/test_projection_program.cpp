@@ -1,6 +1,6 @@
 #include "core/cloth/projection_program.hpp"
 
-#include <QtTest>
+#include <QTest>
 
 #include "tests/core/solvers/sheet_examples.hpp"
 

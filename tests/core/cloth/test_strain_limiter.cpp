@@ -1,7 +1,7 @@
 #include "core/cloth/strain_limiter.hpp"
 
 #include <Eigen/Geometry>
-#include <QtTest>
+#include <QTest>
 #include <random>
 
 #include "core/base/error.hpp"

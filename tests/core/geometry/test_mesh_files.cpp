@@ -1,8 +1,9 @@
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
 #include <QFile>
+#include <QIODevice>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 #include <assimp/Importer.hpp>
 #include <cmath>
 

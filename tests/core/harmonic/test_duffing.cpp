@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/frequency_response.hpp"
 #include "core/harmonic/periodic_motion.hpp"

@@ -1,5 +1,5 @@
 #include <Eigen/Eigenvalues>
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/frequency_response.hpp"
 #include "tests/core/harmonic/example_models.hpp"

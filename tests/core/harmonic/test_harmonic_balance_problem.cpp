@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/amplitude.hpp"
 #include "tests/core/harmonic/example_models.hpp"

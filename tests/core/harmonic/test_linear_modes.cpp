@@ -1,5 +1,5 @@
 #include <Eigen/Eigenvalues>
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/linear_modes.hpp"
 #include "tests/core/harmonic/example_models.hpp"

@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/periodic_motion.hpp"
 #include "tests/core/harmonic/example_models.hpp"

@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/amplitude.hpp"
 #include "core/harmonic/floquet_stability.hpp"

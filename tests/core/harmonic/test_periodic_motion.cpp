@@ -1,4 +1,5 @@
-#include <QtTest>
+#include <QRegularExpression>
+#include <QTest>
 
 #include "core/harmonic/amplitude.hpp"
 #include "core/harmonic/periodic_motion.hpp"

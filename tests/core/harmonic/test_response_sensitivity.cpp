@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/harmonic/response_sensitivity.hpp"
 #include "tests/core/harmonic/example_models.hpp"

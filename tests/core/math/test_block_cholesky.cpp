@@ -1,5 +1,5 @@
 #include <Eigen/SparseCholesky>
-#include <QtTest>
+#include <QTest>
 #include <limits>
 #include <random>
 #include <set>

@@ -1,6 +1,6 @@
 #include <Eigen/LU>
 #include <Eigen/SparseLU>
-#include <QtTest>
+#include <QTest>
 #include <atomic>
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 #include <Eigen/Dense>
-#include <QtTest>
+#include <QTest>
 #include <cmath>
 #include <map>
 #include <random>

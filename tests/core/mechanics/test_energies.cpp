@@ -1,6 +1,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <QtTest>
+#include <QTest>
 #include <random>
 
 #include "core/mechanics/elastic_assembler.hpp"

@@ -1,5 +1,5 @@
 #include <Eigen/Eigenvalues>
-#include <QtTest>
+#include <QTest>
 
 #include "tests/core/mechanics/rod_examples.hpp"
 

@@ -1,6 +1,6 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
-#include <QtTest>
+#include <QTest>
 #include <cmath>
 #include <random>
 

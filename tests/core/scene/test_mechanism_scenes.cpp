@@ -1,5 +1,5 @@
 #include <Eigen/Geometry>
-#include <QtTest>
+#include <QTest>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/elastic_assembler.hpp"

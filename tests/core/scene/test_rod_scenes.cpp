@@ -1,6 +1,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <QtTest>
+#include <QTest>
 #include <numbers>
 
 #include "core/base/error.hpp"

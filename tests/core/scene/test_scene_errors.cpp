@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/base/error.hpp"
 #include "core/scene/scene.hpp"

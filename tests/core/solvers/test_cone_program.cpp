@@ -1,7 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <QtTest>
+#include <QTest>
 #include <limits>
 #include <set>
 

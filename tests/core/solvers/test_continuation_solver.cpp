@@ -1,5 +1,5 @@
 #include <Eigen/LU>
-#include <QtTest>
+#include <QTest>
 #include <functional>
 #include <numbers>
 

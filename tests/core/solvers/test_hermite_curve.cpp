@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/solvers/hermite_curve.hpp"
 

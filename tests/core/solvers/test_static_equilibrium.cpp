@@ -1,4 +1,5 @@
-#include <QtTest>
+#include <QRegularExpression>
+#include <QTest>
 
 #include "core/mechanics/spring.hpp"
 #include "core/solvers/static_equilibrium.hpp"

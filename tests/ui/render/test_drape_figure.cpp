@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "tests/ui/render/hanging_sheet.hpp"
 #include "tests/ui/render/pixels.hpp"

@@ -1,4 +1,4 @@
-#include <QtTest>
+#include <QTest>
 
 #include "core/mechanics/mechanism.hpp"
 #include "ui/render/figure.hpp"
