@@ -84,10 +84,12 @@ function(pliant_add_executable target folder)
   target_link_libraries(${target} PRIVATE ${dependencies} ${ARG_LIBRARIES} pliant_options pliant_warnings)
 endfunction()
 
-# pliant_add_test(FILE LABEL core|scenes|ui|screenshots|long... [DEPENDS FOLDER...] [LIBRARIES TARGET...])
-# compiles the Qt Test FILE.cpp (relative to the calling folder) into one test program.
+# pliant_add_test(FILE LABEL core|scenes|ui|screenshots|long... [DEPENDS FOLDER...] [LIBRARIES TARGET...]
+#                 [PARTS NAME...] [LONG])
+# compiles the Qt Test FILE.cpp (relative to the calling folder) into one test program. With PARTS it runs once for each,
+# which stands in the environment variable PLIANT_TEST_PART. LONG ones begin first, so that none is left running alone.
 function(pliant_add_test file)
-  cmake_parse_arguments(ARG "" "" "LABEL;DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "" "LABEL;DEPENDS;LIBRARIES;PARTS" ${ARGN})
   file(RELATIVE_PATH place ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR}/${file})
   string(REPLACE "/" "." name ${place})
   set(target test.${name})
@@ -103,7 +105,6 @@ function(pliant_add_test file)
     target_compile_definitions(${target} PRIVATE QT_NO_KEYWORDS)
   endif()
   target_link_libraries(${target} PRIVATE ${dependencies} ${ARG_LIBRARIES} Qt6::Test pliant_options pliant_warnings)
-  add_test(NAME ${name} COMMAND ${target})
   set(environment
       QT_QPA_PLATFORM=offscreen
       GALLIUM_DRIVER=llvmpipe
@@ -111,5 +112,18 @@ function(pliant_add_test file)
       LC_ALL=C.UTF-8
       LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/leaks_of_libraries.txt
       TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/races_of_libraries.txt)
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" ENVIRONMENT "${environment}")
+  if(NOT ARG_PARTS)
+    set(ARG_PARTS all)
+  endif()
+  foreach(part ${ARG_PARTS})
+    set(test ${name})
+    if(NOT part STREQUAL all)
+      string(APPEND test .${part})
+    endif()
+    add_test(NAME ${test} COMMAND ${target})
+    set_tests_properties(${test} PROPERTIES LABELS "${ARG_LABEL}" ENVIRONMENT "${environment};PLIANT_TEST_PART=${part}")
+    if(ARG_LONG)
+      set_tests_properties(${test} PROPERTIES COST 1000)
+    endif()
+  endforeach()
 endfunction()
