@@ -52,6 +52,36 @@ CellState moved(const CellState& state, const Eigen::VectorXd& velocity, double 
   return next;
 }
 
+namespace {
+
+/// An arc cut into several, or anything else as it is.
+struct SplitPart {
+  std::vector<Part> parts;
+  std::vector<PlacedPart> placed;  ///< pointing to parts
+
+  void split(const PlacedPart& whole, int count) {
+    if (whole.part->kind != PartKind::arc) {
+      placed.assign(1, whole);
+      return;
+    }
+    parts.assign(count, *whole.part);
+    placed.assign(count, whole);
+    const double begin = whole.part->begin, step = (whole.part->end - begin) / count;
+    for (int i = 0; i < count; ++i) {
+      if (i > 0) parts[i].begin = parts[i - 1].end;
+      if (i + 1 < count) parts[i].end = begin + (i + 1) * step;
+      // Between its ends an arc strays from the chord by at most h²/8 |c''|.
+      parts[i].sagitta = std::min(whole.part->sagitta, step * step / 8 * whole.part->secondBound);
+      placed[i].part = &parts[i];
+      if (i > 0) placed[i].corners.col(0) = placed[i - 1].corners.col(1);
+      if (i + 1 < count) placed[i].corners.col(1) = whole.curve->placeAt(parts[i].end);
+      parts[i].chord = (placed[i].corners.col(1) - placed[i].corners.col(0)).norm();
+    }
+  }
+};
+
+}  // namespace
+
 struct CellContact::Pose {
   std::vector<ClosedCurve> curves;
   Matrix3Xd corners;
@@ -132,8 +162,15 @@ PlacedPart CellContact::placed(const std::vector<Pose>& poses, int element, int 
   return result;
 }
 
+struct CellContact::Sums {
+  double energy, gap;
+  Eigen::VectorXd* gradient;
+  Eigen::MatrixXd* hessian;
+  std::vector<CellContactForce>* forces;
+};
+
 double CellContact::energy(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
-                           Eigen::VectorXd* gradient, Eigen::MatrixXd* hessian,
+                           Eigen::VectorXd* gradient, Eigen::MatrixXd* hessian, double* smallestGap,
                            std::vector<CellContactForce>* forces) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const int size = coordinateCount();
@@ -142,30 +179,52 @@ double CellContact::energy(const CellState& state, const std::vector<PartPair>& 
   if (forces) forces->clear();
   if (!state.positions.allFinite() || !state.strain.allFinite()) return infinity;
   const std::vector<Pose> poses = posesOf(state);
-  double sum = 0;
-  ContactTerms terms;
+  Sums sums{0, barrier.range, gradient, hessian, forces};
+  SplitPart partsA, partsB;
+  Vector3d offset;
+  const PartPair* last = nullptr;
   for (const PartPair& pair : pairs) {
     const PlacedPart a = placed(poses, pair.a, pair.partA), b = placed(poses, pair.b, pair.partB);
-    const Vector3d offset = offsetOf(state, pair.a, pair.b, pair.shift);
-    const double radii = a.part->radius + b.part->radius;
-    if (distanceBound(a, b, offset) >= radii + barrier.range) continue;
-    const Vector2d translation = cell_.lattice * Vector2d(pair.shift[0], pair.shift[1]);
-    if (!terms.compute(a, b, offset, translation, barrier, gradient != nullptr, hessian != nullptr)) continue;
-    if (!(terms.gap > 0)) return infinity;
-    sum += terms.value;
-    if (forces)
-      forces->push_back({pair, terms.gap, terms.force, terms.place + state.positions.col(pair.a), terms.normal});
-    // Local coordinates: six of a, six of b, three of the strain.
-    const std::array<int, 3> from = {0, 6, 12}, length = {6, 6, 3}, to = {6 * pair.a, 6 * pair.b, size - 3};
-    for (int i = 0; i < 3; ++i) {
-      if (gradient) gradient->segment(to[i], length[i]) += terms.gradient.segment(from[i], length[i]);
-      if (!hessian) continue;
-      for (int j = 0; j < 3; ++j)
-        hessian->block(to[i], to[j], length[i], length[j]) +=
-            terms.hessian.block(from[i], from[j], length[i], length[j]);
+    if (!last || last->a != pair.a || last->b != pair.b || last->shift != pair.shift)
+      offset = offsetOf(state, pair.a, pair.b, pair.shift);
+    last = &pair;
+    if (areApart(a, b, offset, a.part->radius + b.part->radius + barrier.range)) continue;
+    if (barrier.split == 1) {
+      if (!addPair(pair, a, b, state, offset, barrier, sums)) return infinity;
+      continue;
     }
+    partsA.split(a, barrier.split);
+    partsB.split(b, barrier.split);
+    for (const PlacedPart& subA : partsA.placed)
+      for (const PlacedPart& subB : partsB.placed)
+        if (!areApart(subA, subB, offset, a.part->radius + b.part->radius + barrier.range) &&
+            !addPair(pair, subA, subB, state, offset, barrier, sums))
+          return infinity;
   }
-  return sum;
+  if (smallestGap) *smallestGap = sums.gap;
+  return sums.energy;
+}
+
+bool CellContact::addPair(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const CellState& state,
+                          const Vector3d& offset, const Barrier& barrier, Sums& sums) const {
+  const auto& [energy, gap, gradient, hessian, forces] = sums;
+  const Vector2d translation = cell_.lattice * Vector2d(pair.shift[0], pair.shift[1]);
+  ContactTerms terms;
+  if (!terms.compute(a, b, offset, translation, barrier, gradient != nullptr, hessian != nullptr)) return true;
+  if (!(terms.gap > 0)) return false;
+  sums.energy += terms.value;
+  sums.gap = std::min(gap, terms.gap);
+  if (forces)
+    forces->push_back({pair, terms.gap, terms.force, terms.place + state.positions.col(pair.a), terms.normal});
+  // Local coordinates: six of a, six of b, three of the strain.
+  const std::array<int, 3> from = {0, 6, 12}, length = {6, 6, 3}, to = {6 * pair.a, 6 * pair.b, coordinateCount() - 3};
+  for (int i = 0; i < 3; ++i) {
+    if (gradient) gradient->segment(to[i], length[i]) += terms.gradient.segment(from[i], length[i]);
+    if (!hessian) continue;
+    for (int j = 0; j < 3; ++j)
+      hessian->block(to[i], to[j], length[i], length[j]) += terms.hessian.block(from[i], from[j], length[i], length[j]);
+  }
+  return true;
 }
 
 double CellContact::smallestGap(const CellState& state, double reach, PartPair* where) const {
@@ -174,7 +233,7 @@ double CellContact::smallestGap(const CellState& state, double reach, PartPair* 
   for (const PartPair& pair : nearParts(state, reach)) {
     const PlacedPart a = placed(poses, pair.a, pair.partA), b = placed(poses, pair.b, pair.partB);
     const Vector3d offset = offsetOf(state, pair.a, pair.b, pair.shift);
-    if (distanceBound(a, b, offset) - a.part->radius - b.part->radius >= smallest) continue;
+    if (areApart(a, b, offset, a.part->radius + b.part->radius + smallest)) continue;
     const double gap = gapBetween(a, b, offset);
     if (gap >= smallest) continue;
     smallest = gap;

@@ -49,7 +49,8 @@ class CellContact {
  public:
   struct Barrier {
     double weight;
-    double range;  ///< [m]
+    double range;   ///< [m]
+    int split = 1;  ///< each arc counts as so many
   };
 
   /// The default cuts a circle into 24 arcs.
@@ -70,9 +71,10 @@ class CellContact {
   std::vector<PartPair> nearParts(const CellState& state, double reach) const;
 
   /// Energy of the pairs; infinite if any of them overlap, or a number is not finite. `gradient` and `hessian` get one
-  /// entry a coordinate, `forces` all contacts within range; null where not wanted.
+  /// entry a coordinate, `smallestGap` the least of all gaps or the range, `forces` all contacts within range; null
+  /// where not wanted.
   double energy(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
-                Eigen::VectorXd* gradient = nullptr, Eigen::MatrixXd* hessian = nullptr,
+                Eigen::VectorXd* gradient = nullptr, Eigen::MatrixXd* hessian = nullptr, double* smallestGap = nullptr,
                 std::vector<CellContactForce>* forces = nullptr) const;
 
   /// Of all pairs of parts [m], if below `reach`, else `reach`. Negative if elements overlap. `where` gets the pair, if
@@ -86,6 +88,10 @@ class CellContact {
   struct Pose;  ///< all parts turned
   std::vector<Pose> posesOf(const CellState& state) const;
   PlacedPart placed(const std::vector<Pose>& poses, int element, int part) const;
+  struct Sums;  ///< where the terms of all pairs go
+  /// False if the parts overlap.
+  bool addPair(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const CellState& state,
+               const Eigen::Vector3d& offset, const Barrier& barrier, Sums& sums) const;
 
   UnitCell cell_;
   std::vector<ElementParts> parts_;  ///< by shape

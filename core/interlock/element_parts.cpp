@@ -36,6 +36,8 @@ void ElementParts::addCurve(const ClosedCurve& curve, int piece, double radius, 
   for (int i = 0; i < count; ++i) {
     Part part{PartKind::arc, piece, radius, static_cast<int>(curves_.size()), points[i], points[i + 1]};
     part.corners = {first + i, first + (i + 1) % count, 0};
+    part.secondBound = bound;
+    part.chord = (corners_.col(part.corners[1]) - corners_.col(part.corners[0])).norm();
     // Between samples the curve strays from their chord by at most h²/8 |c''|.
     constexpr int samples = 16;
     const double step = (part.end - part.begin) / samples;

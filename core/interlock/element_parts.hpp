@@ -17,6 +17,8 @@ struct Part {
   int curve = -1;                ///< arc: index in ElementParts::curves
   double begin = 0, end = 0;     ///< arc: its parameters
   double sagitta = 0;            ///< arc: no point of it is farther from its chord [m]
+  double chord = 0;              ///< arc: distance of its ends [m]
+  double secondBound = 0;        ///< arc: bound of |c''| [m]
   std::array<int, 3> corners{};  ///< else: columns of ElementParts::corners; of an arc: those of its ends
   bool bounds = false;           ///< point of a segment or triangle, side of a triangle
 };

@@ -83,7 +83,20 @@ ClosestArcs betweenArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d
     }
     return result;
   };
-  const double s = minimumOnInterval(a.part->begin, a.part->end, from(*a.part, straight.weights[1]), derivativesAt);
+  const double firstT = t;
+  double s = minimumOnInterval(a.part->begin, a.part->end, from(*a.part, straight.weights[1]), derivativesAt);
+  if (derivativesAt(s).curvature < 0.1 * onA.tangent.squaredNorm()) {
+    // The distance is flat along the curves, so that it may have two minima: the other is found from the ends.
+    double least = (onA.place + offset - onB.place).squaredNorm(), bestT = t;
+    for (const double start : {a.part->begin, a.part->end}) {
+      t = firstT;
+      const double other = minimumOnInterval(a.part->begin, a.part->end, start, derivativesAt);
+      derivativesAt(other);
+      const double squared = (onA.place + offset - onB.place).squaredNorm();
+      if (squared < least) least = squared, s = other, bestT = t;
+    }
+    t = bestT;
+  }
   if (s != last) derivativesAt(s);
   ClosestArcs closest{onA.place + offset - onB.place, onA.place, onB.place};
   if (isInside(*a.part, s)) addFree(closest, true, onA.tangent, closest.between.dot(onA.second));
@@ -146,21 +159,21 @@ ClosestArcs closestArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d
   return betweenArcs(a, b, offset);
 }
 
-double distanceBound(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset) {
-  if (a.part->kind != PartKind::arc || b.part->kind != PartKind::arc) {
-    if (a.part->kind == PartKind::arc) {
-      const geometry::Corners ends =
-          (geometry::Corners() << (a.corners.col(0) + a.corners.col(1)) / 2 + offset, b.corners).finished();
-      const double far = (a.corners.col(0) - a.corners.col(1)).norm() / 2 + a.part->sagitta;
-      return std::sqrt(geometry::closestPoints(pairWithPoint(b.part->kind), ends).squaredDistance) - far;
-    }
-    if (b.part->kind == PartKind::arc) return distanceBound(b, a, -offset);
-    return 0;
+bool areApart(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, double distance) {
+  if (a.part->kind != PartKind::arc) return b.part->kind == PartKind::arc && areApart(b, a, -offset, distance);
+  const Vector3d middle = 0.5 * (a.corners.col(0) + a.corners.col(1)) + offset;
+  const double half = 0.5 * a.part->chord + a.part->sagitta;
+  if (b.part->kind != PartKind::arc) {
+    const geometry::Corners corners = (geometry::Corners() << middle, b.corners).finished();
+    const double far = distance + half;
+    return geometry::closestPoints(pairWithPoint(b.part->kind), corners).squaredDistance >= far * far;
   }
+  const double farBalls = distance + half + 0.5 * b.part->chord + b.part->sagitta;
+  if ((middle - 0.5 * (b.corners.col(0) + b.corners.col(1))).squaredNorm() >= farBalls * farBalls) return true;
   const geometry::Corners chords =
       (geometry::Corners() << a.corners.leftCols<2>().colwise() + offset, b.corners.leftCols<2>()).finished();
-  return std::sqrt(geometry::closestPoints(SimplexPair::edgeEdge, chords).squaredDistance) - a.part->sagitta -
-         b.part->sagitta;
+  const double far = distance + a.part->sagitta + b.part->sagitta;
+  return geometry::closestPoints(SimplexPair::edgeEdge, chords).squaredDistance >= far * far;
 }
 
 SimplexParts simplexParts(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset) {

@@ -31,8 +31,9 @@ struct ClosestArcs {
 /// are nearer to each other than their curvature radii.
 ClosestArcs closestArcs(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset);
 
-/// No point of the one part is nearer to the other than this [m]; cheap.
-double distanceBound(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset);
+/// True only if the parts are at least `distance` apart [m], not counting their radii; cheap, and nearly always true
+/// then if one of them is an arc.
+bool areApart(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset, double distance);
 
 /// Two parts that are both simplices, with corners relative to B's origin.
 struct SimplexParts {

@@ -30,8 +30,8 @@ inline double gaussIntegral(const ClosedCurve& a, const ClosedCurve& b, const Ei
 }
 
 /// The smallest distance of two curves by trying all pairs of samples, and again more finely around the best [m].
-inline double sampledDistance(const ClosedCurve& a, const ClosedCurve& b, const Eigen::Vector3d& offset) {
-  constexpr int count = 360;
+inline double sampledDistance(const ClosedCurve& a, const ClosedCurve& b, const Eigen::Vector3d& offset,
+                              int count = 360) {
   double bestS = 0, bestT = 0, best = 1e300, step = 2 * std::numbers::pi / count;
   const auto attempt = [&](double s, double t) {
     const double distance = (a.placeAt(s) + offset - b.placeAt(t)).norm();
