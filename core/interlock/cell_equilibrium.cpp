@@ -39,6 +39,12 @@ CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& dri
   return result;
 }
 
+CellState CellSolver::relaxed(const CellState& state) const {
+  StrainDrive drive;
+  drive.directions.resize(3, 0);
+  return EquilibriumSearch(*this, state, drive, nullptr).relax();
+}
+
 CellState CellSolver::perturbed(const CellState& state, double amplitude, unsigned seed) const {
   std::mt19937 random(seed);
   VectorXd velocity = VectorXd::Zero(contact_.coordinateCount());

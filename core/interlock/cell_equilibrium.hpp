@@ -87,6 +87,10 @@ class CellSolver {
   CellEquilibrium solve(const CellState& start, const StrainDrive& drive,
                         const base::ExecutionContext* context = nullptr) const;
 
+  /// The elements moved apart from each other as far as the strain, which is kept, lets them within a barrier's range
+  /// of the smallest radius.
+  CellState relaxed(const CellState& state) const;
+
   /// Elements moved and turned at random by about `amplitude` times the smallest radius, less if they would come nearer
   /// than half the smallest gap: breaks symmetries that would hold a structure on a saddle. The same for the same seed.
   CellState perturbed(const CellState& state, double amplitude, unsigned seed) const;

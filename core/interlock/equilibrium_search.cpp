@@ -164,6 +164,11 @@ void EquilibriumSearch::measure(const CellContact::Barrier& barrier, CellEquilib
   result.remaining += decrement_;
 }
 
+CellState EquilibriumSearch::relax() {
+  minimize({1, solver_.radius_}, 1e-6);
+  return state_;
+}
+
 CellEquilibrium EquilibriumSearch::run() {
   const EquilibriumOptions& options = solver_.options_;
   CellEquilibrium result;

@@ -11,6 +11,8 @@ class EquilibriumSearch {
                     const base::ExecutionContext* context);
 
   CellEquilibrium run();
+  /// The barrier alone, at its widest.
+  CellState relax();
 
  private:
   enum class Outcome { minimum, reached, unlimited, noProgress, iterationLimit, cancelled };
