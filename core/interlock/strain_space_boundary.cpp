@@ -43,7 +43,7 @@ class BoundaryComputation {
       std::vector<std::array<int, 2>> edges;
       const double limit = options_.tolerance * boundary_.meanDistance();
       for (const auto& edge : edgesOf(boundary_.mesh))
-        if (0.5 * std::max(errors_[edge[0]], errors_[edge[1]]) > limit) edges.push_back(edge);
+        if (errorOf(edge) > limit) edges.push_back(edge);
       if (edges.empty() || boundary_.states.size() + edges.size() > static_cast<std::size_t>(options_.maximumStates))
         break;
       boundary_.mesh = refined(boundary_.mesh, edges);
@@ -169,9 +169,11 @@ class BoundaryComputation {
   /// How far each direction that cuts an edge is off that edge.
   void measureErrors() {
     errors_.assign(boundary_.states.size(), 0);
+    generation_.assign(boundary_.states.size(), 0);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
       const auto& [a, b] = boundary_.mesh.parents[i];
       if (a < 0) continue;
+      generation_[i] = 1 + std::max(generation_[a], generation_[b]);
       // The middle direction meets the chord between both points at the harmonic mean of their distances over the
       // cosine of half the angle between them.
       const double first = boundary_.states[a].distance, second = boundary_.states[b].distance;
@@ -199,21 +201,20 @@ class BoundaryComputation {
       boundary_.termination = TerminationType::infeasible;
       boundary_.message = "nothing limits " + std::to_string(unlimited) + all;
     }
-    // The newest directions tell how far the edges before them were off; edges now are half as long.
-    double sum = 0;
-    int newest = 0;
-    std::vector<char> isParent(boundary_.states.size(), 0);
-    for (const auto& [a, b] : boundary_.mesh.parents)
-      if (a >= 0) isParent[a] = isParent[b] = 1;
-    for (std::size_t i = 0; i < errors_.size(); ++i) {
-      if (isParent[i] || boundary_.mesh.parents[i][0] < 0) continue;
-      boundary_.largestError = std::max(boundary_.largestError, 0.5 * errors_[i]);
-      sum += 0.5 * errors_[i];
-      ++newest;
+    const auto edges = edgesOf(boundary_.mesh);
+    for (const auto& edge : edges) {
+      boundary_.largestError = std::max(boundary_.largestError, errorOf(edge));
+      boundary_.meanError += errorOf(edge) / static_cast<double>(edges.size());
     }
-    const double scale = boundary_.meanDistance();
-    boundary_.largestError /= scale;
-    boundary_.meanError = newest > 0 ? sum / newest / scale : 0;
+    boundary_.largestError /= boundary_.meanDistance();
+    boundary_.meanError /= boundary_.meanDistance();
+  }
+
+  /// Half of what its newer end was off the edge that it cut, since this one is half as long.
+  double errorOf(const std::array<int, 2>& edge) const {
+    const auto& [a, b] = edge;
+    if (generation_[a] != generation_[b]) return 0.5 * errors_[generation_[a] > generation_[b] ? a : b];
+    return 0.5 * std::max(errors_[a], errors_[b]);
   }
 
   const CellSolver& solver_;
@@ -222,8 +223,9 @@ class BoundaryComputation {
   base::ExecutionContext& context_;
   BoundaryMemory* memory_;
   StrainSpaceBoundary boundary_;
-  std::vector<double> errors_;  ///< see measureErrors
-  std::vector<double> tried_;   ///< distance of the neighbour that each direction was tested with last
+  std::vector<double> errors_;   ///< see measureErrors
+  std::vector<int> generation_;  ///< of directions: how often the icosahedron was cut up to it
+  std::vector<double> tried_;    ///< distance of the neighbour that each direction was tested with last
 };
 
 }  // namespace

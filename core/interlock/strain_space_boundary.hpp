@@ -59,8 +59,8 @@ struct StrainSpaceBoundary {
 
   base::TerminationType termination = base::TerminationType::failed;
   std::string message;
-  /// How far the surface between the rays is estimated to be off, relative to the mean distance: half of how far the
-  /// newest directions were off the edges they cut.
+  /// How far edges are estimated to be off the boundary, relative to the mean distance: half of how far the newer of
+  /// their ends was off the edge that it cut.
   double largestError = 0, meanError = 0;
 
   Eigen::Vector3d strainAt(int direction) const {

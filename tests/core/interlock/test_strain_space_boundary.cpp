@@ -141,8 +141,8 @@ class TestStrainSpaceBoundary : public QObject {
   void sameBytesForAnyNumberOfThreads() {
     BoundaryOptions options;
     options.subdivisions = 1;
-    options.tolerance = 0.02;
-    options.maximumStates = 150;
+    options.tolerance = 0.05;
+    options.maximumStates = 100;
     std::vector<double> first;
     for (const int threads : {1, 2, 5}) {
       pliant::math::setThreadCount(threads);
@@ -184,6 +184,7 @@ class TestStrainSpaceBoundary : public QObject {
   void refinementFollowsItsEstimate() {
     const UnitCell cell = threefold();
     BoundaryOptions options;
+    options.testStarShape = false;
     options.subdivisions = 2;
     const StrainSpaceBoundary coarse = boundaryOf(cell, options);
     options.subdivisions = 3;
@@ -201,11 +202,12 @@ class TestStrainSpaceBoundary : public QObject {
     QVERIFY2(measured < 1.5 * coarse.meanError && measured > 0.3 * coarse.meanError,
              qPrintable(QString("%1 %2").arg(measured).arg(coarse.meanError)));
     options.subdivisions = 2;
-    options.tolerance = 0.02;
+    options.tolerance = 0.03;
     const StrainSpaceBoundary adaptive = boundaryOf(cell, options);
     QVERIFY(adaptive.isClosed());
-    QVERIFY(adaptive.largestError <= 0.02);
+    QVERIFY(adaptive.largestError <= 0.03);
     QVERIFY(adaptive.states.size() > coarse.states.size());
+    QVERIFY(adaptive.states.size() < fine.states.size());  // cut where it bends alone
   }
 
   void greenStrainOfPrincipalStates() {
