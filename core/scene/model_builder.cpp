@@ -44,6 +44,7 @@ class Builder {
   }
 
   mechanics::Model build() {
+    if (geometries_.empty()) return std::move(model_);  // a scene of interlocking cells alone
     addNodes();
     forEach("drives", [&](const Json& entry, const std::string& pointer) {
       if (entry["type"] == "servo")

@@ -1,5 +1,6 @@
 #include "core/scene/cloth_specs.hpp"
 #include "core/scene/element_specs.hpp"
+#include "core/scene/interlock_specs.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/spec_builder.hpp"
 #include "core/scene/study_specs.hpp"
@@ -253,6 +254,9 @@ ParameterSpec makeSceneSpec() {
                                        dimensions::none)),
                        optional(number("maximum", "", "Largest value in design, in SI; twice the value if left out.",
                                        dimensions::none))})),
+       entries("interlocking_cells", "Materials of interlocking elements.",
+               variant("interlocking_cell", "Rigid elements that hold each other, repeated over a plane.",
+                       interlockingCellSpecs())),
        entries("probes", "Nodes whose motion is reported.",
                object("probe", "A node whose trajectory and amplitude are reported.",
                       {name(), selection("at", "One node.")})),

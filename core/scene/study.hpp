@@ -29,7 +29,7 @@ struct Provenance {
 class Result {
  public:
   virtual ~Result() = default;
-  /// "harmonic", "modes", "time", "comparison", "cloth": which views can show it.
+  /// "harmonic", "modes", "time", "comparison", "cloth", "interlock": which views can show it.
   virtual std::string kind() const = 0;
   /// Every scalar that a person would quote (summary.json).
   virtual Json summary() const = 0;
@@ -132,7 +132,8 @@ using StudyFactory =
     std::function<std::unique_ptr<Study>(const Scene&, std::shared_ptr<const mechanics::Model>, const Json& options)>;
 
 /// Kinds of studies by "type": "periodic_motion", "frequency_response", "backbone", "linear_modes", "linear_response",
-/// "time_integration", "comparison", "cloth_motion", "cloth_drape", "projection".
+/// "time_integration", "comparison", "cloth_motion", "cloth_drape", "projection", "cell_test", "free_travel",
+/// "stretch_boundary".
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();

@@ -1,6 +1,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/cloth_studies.hpp"
 #include "core/scene/harmonic_studies.hpp"
+#include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
 #include "core/scene/study.hpp"
@@ -40,7 +41,10 @@ StudyRegistry::StudyRegistry()
                  {"comparison", makeComparisonStudy},
                  {"cloth_motion", makeClothMotionStudy},
                  {"cloth_drape", makeClothDrapeStudy},
-                 {"projection", makeProjectionStudy}} {}
+                 {"projection", makeProjectionStudy},
+                 {"cell_test", makeCellTestStudy},
+                 {"free_travel", makeFreeTravelStudy},
+                 {"stretch_boundary", makeStretchBoundaryStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;
@@ -52,8 +56,12 @@ const std::vector<base::ParameterSpec>& StudyRegistry::specs() const { return st
 std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                            const std::string& studyName) const {
   for (const Json& options : scene.normalized()["studies"])
-    if (options["name"] == studyName)
+    if (options["name"] == studyName) {
+      if (model->nodeCount() == 0 && !options.contains("cell"))
+        throw base::InputError(
+            scene.name() + ": /geometry", "The scene has no nodes, which the study " + quote(studyName) + " needs.");
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
+    }
   std::string known;
   for (const std::string& name : studyNames(scene)) known += (known.empty() ? "" : ", ") + quote(name);
   throw base::InputError(scene.name() + ": /studies", "There is no study " + quote(studyName) + "; the scene has " +

@@ -1,6 +1,7 @@
 #include "core/scene/study_specs.hpp"
 
 #include "core/scene/cloth_specs.hpp"
+#include "core/scene/interlock_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -172,6 +173,7 @@ const std::vector<ParameterSpec>& studySpecs() {
                  5),
              maximumPeriods(), periodTolerance()})};
     for (ParameterSpec& cloth : clothStudySpecs()) all.push_back(std::move(cloth));
+    for (ParameterSpec& interlock : interlockStudySpecs()) all.push_back(std::move(interlock));
     return all;
   }();
   return specs;

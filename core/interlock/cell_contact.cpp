@@ -1,0 +1,245 @@
+#include "core/interlock/cell_contact.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "core/interlock/contact_terms.hpp"
+
+namespace pliant::interlock {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+CellState restState(const UnitCell& cell) {
+  CellState state;
+  state.positions.resize(3, static_cast<Eigen::Index>(cell.elements.size()));
+  for (std::size_t i = 0; i < cell.elements.size(); ++i) {
+    state.positions.col(static_cast<Eigen::Index>(i)) = cell.elements[i].position;
+    state.rotations.push_back(cell.elements[i].rotation);
+  }
+  return state;
+}
+
+const std::array<Matrix2d, 3>& stretchBasis() {
+  static const std::array<Matrix2d, 3> basis = {
+      Matrix2d::Identity(), (Matrix2d() << 1, 0, 0, -1).finished(), (Matrix2d() << 0, 1, 1, 0).finished()};
+  return basis;
+}
+
+Matrix2d stretchOf(const Vector3d& strain) {
+  Matrix2d stretch = Matrix2d::Identity();
+  for (int k = 0; k < 3; ++k) stretch += strain[k] * stretchBasis()[k];
+  return stretch;
+}
+
+CellState moved(const CellState& state, const Eigen::VectorXd& velocity, double step) {
+  CellState next = state;
+  for (std::size_t i = 0; i < state.rotations.size(); ++i) {
+    const auto own = velocity.segment<6>(6 * static_cast<Eigen::Index>(i));
+    next.positions.col(static_cast<Eigen::Index>(i)) += step * own.head<3>();
+    const Vector3d turn = step * own.tail<3>();
+    const double angle = turn.norm();
+    if (angle == 0) continue;
+    // Through a quaternion, so that rounding never makes the matrix anything but a rotation.
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(angle, turn / angle));
+    next.rotations[i] = (turned * Eigen::Quaterniond(state.rotations[i])).normalized().toRotationMatrix();
+  }
+  next.strain += step * velocity.tail<3>();
+  return next;
+}
+
+namespace {
+
+/// An arc cut into several, or anything else as it is.
+struct SplitPart {
+  std::vector<Part> parts;
+  std::vector<PlacedPart> placed;  ///< pointing to parts
+
+  void split(const PlacedPart& whole, int count) {
+    if (whole.part->kind != PartKind::arc) {
+      placed.assign(1, whole);
+      return;
+    }
+    parts.assign(count, *whole.part);
+    placed.assign(count, whole);
+    const double begin = whole.part->begin, step = (whole.part->end - begin) / count;
+    for (int i = 0; i < count; ++i) {
+      if (i > 0) parts[i].begin = parts[i - 1].end;
+      if (i + 1 < count) parts[i].end = begin + (i + 1) * step;
+      // Between its ends an arc strays from the chord by at most h²/8 |c''|.
+      parts[i].sagitta = std::min(whole.part->sagitta, step * step / 8 * whole.part->secondBound);
+      placed[i].part = &parts[i];
+      if (i > 0) placed[i].corners.col(0) = placed[i - 1].corners.col(1);
+      if (i + 1 < count) placed[i].corners.col(1) = whole.curve->placeAt(parts[i].end);
+      parts[i].chord = (placed[i].corners.col(1) - placed[i].corners.col(0)).norm();
+    }
+  }
+};
+
+}  // namespace
+
+struct CellContact::Pose {
+  std::vector<ClosedCurve> curves;
+  Matrix3Xd corners;
+};
+
+CellContact::CellContact(const UnitCell& cell, double arcTurn) : cell_(cell) {
+  for (const ElementShape& shape : cell.shapes) parts_.emplace_back(shape, arcTurn);
+}
+
+Vector3d CellContact::offsetOf(const CellState& state, int a, int b, const std::array<int, 2>& shift) const {
+  Vector3d offset = state.positions.col(a) - state.positions.col(b);
+  offset.head<2>() -= stretchOf(state.strain) * (cell_.lattice * Vector2d(shift[0], shift[1]));
+  return offset;
+}
+
+std::vector<CellContact::ImagePair> CellContact::nearElements(const CellState& state, double reach) const {
+  std::vector<ImagePair> pairs;
+  const Matrix2d inverse = (stretchOf(state.strain) * cell_.lattice).inverse();
+  const int count = static_cast<int>(cell_.elements.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a; b < count; ++b) {
+      const double farthest = partsOf(a).reach() + partsOf(b).reach() + reach;
+      const Vector3d between = state.positions.col(a) - state.positions.col(b);
+      const Vector2d middle = inverse * between.head<2>();
+      const Vector2d extent = farthest * inverse.rowwise().norm();
+      for (int i = static_cast<int>(std::ceil(middle[0] - extent[0])); i <= middle[0] + extent[0]; ++i)
+        for (int j = static_cast<int>(std::ceil(middle[1] - extent[1])); j <= middle[1] + extent[1]; ++j) {
+          if (a == b && (i < 0 || (i == 0 && j <= 0))) continue;  // found from the other side
+          if (offsetOf(state, a, b, {i, j}).norm() < farthest) pairs.push_back({a, b, {i, j}});
+        }
+    }
+  return pairs;
+}
+
+std::vector<PartPair> CellContact::nearParts(const CellState& state, double reach) const {
+  std::vector<PartPair> pairs;
+  std::vector<std::array<int, 2>> stack;
+  for (const auto& [a, b, shift] : nearElements(state, reach)) {
+    const ElementParts &first = partsOf(a), &second = partsOf(b);
+    // Everything as seen from b, so that only the balls of a have to be turned.
+    const Matrix3d toB = state.rotations[b].transpose();
+    const Matrix3d turn = toB * state.rotations[a];
+    const Vector3d offset = toB * offsetOf(state, a, b, shift);
+    stack.assign(1, {0, 0});
+    while (!stack.empty()) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      const ElementParts::Node &nodeA = first.nodes()[i], &nodeB = second.nodes()[j];
+      const double touching = nodeA.ball.radius + nodeB.ball.radius + reach;
+      if ((turn * nodeA.ball.centre + offset - nodeB.ball.centre).squaredNorm() >= touching * touching) continue;
+      if (nodeA.part >= 0 && nodeB.part >= 0) {
+        if (countsAsContact(first.parts()[nodeA.part], second.parts()[nodeB.part]))
+          pairs.push_back({a, b, shift, nodeA.part, nodeB.part});
+      } else if (nodeB.part >= 0 || (nodeA.part < 0 && nodeA.ball.radius > nodeB.ball.radius)) {
+        for (const int child : nodeA.children) stack.push_back({child, j});
+      } else {
+        for (const int child : nodeB.children) stack.push_back({i, child});
+      }
+    }
+  }
+  return pairs;
+}
+
+std::vector<CellContact::Pose> CellContact::posesOf(const CellState& state) const {
+  std::vector<Pose> poses(cell_.elements.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const ElementParts& parts = partsOf(static_cast<int>(i));
+    for (const ClosedCurve& curve : parts.curves()) poses[i].curves.push_back(curve.rotated(state.rotations[i]));
+    poses[i].corners = state.rotations[i] * parts.corners();
+  }
+  return poses;
+}
+
+PlacedPart CellContact::placed(const std::vector<Pose>& poses, int element, int part) const {
+  const Part& own = partsOf(element).parts()[part];
+  PlacedPart result{&own, own.kind == PartKind::arc ? &poses[element].curves[own.curve] : nullptr, {}};
+  for (int i = 0; i < 3; ++i) result.corners.col(i) = poses[element].corners.col(own.corners[i]);
+  return result;
+}
+
+struct CellContact::Sums {
+  double energy, gap;
+  Eigen::VectorXd* gradient;
+  Eigen::MatrixXd* hessian;
+  std::vector<CellContactForce>* forces;
+};
+
+double CellContact::energy(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
+                           Eigen::VectorXd* gradient, Eigen::MatrixXd* hessian, double* smallestGap,
+                           std::vector<CellContactForce>* forces) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const int size = coordinateCount();
+  if (gradient) gradient->setZero(size);
+  if (hessian) hessian->setZero(size, size);
+  if (forces) forces->clear();
+  if (!state.positions.allFinite() || !state.strain.allFinite()) return infinity;
+  const std::vector<Pose> poses = posesOf(state);
+  Sums sums{0, barrier.range, gradient, hessian, forces};
+  SplitPart partsA, partsB;
+  Vector3d offset;
+  const PartPair* last = nullptr;
+  for (const PartPair& pair : pairs) {
+    const PlacedPart a = placed(poses, pair.a, pair.partA), b = placed(poses, pair.b, pair.partB);
+    if (!last || last->a != pair.a || last->b != pair.b || last->shift != pair.shift)
+      offset = offsetOf(state, pair.a, pair.b, pair.shift);
+    last = &pair;
+    if (areApart(a, b, offset, a.part->radius + b.part->radius + barrier.range)) continue;
+    if (barrier.split == 1) {
+      if (!addPair(pair, a, b, state, offset, barrier, sums)) return infinity;
+      continue;
+    }
+    partsA.split(a, barrier.split);
+    partsB.split(b, barrier.split);
+    for (const PlacedPart& subA : partsA.placed)
+      for (const PlacedPart& subB : partsB.placed)
+        if (!areApart(subA, subB, offset, a.part->radius + b.part->radius + barrier.range) &&
+            !addPair(pair, subA, subB, state, offset, barrier, sums))
+          return infinity;
+  }
+  if (smallestGap) *smallestGap = sums.gap;
+  return sums.energy;
+}
+
+bool CellContact::addPair(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const CellState& state,
+                          const Vector3d& offset, const Barrier& barrier, Sums& sums) const {
+  const auto& [energy, gap, gradient, hessian, forces] = sums;
+  const Vector2d translation = cell_.lattice * Vector2d(pair.shift[0], pair.shift[1]);
+  ContactTerms terms;
+  if (!terms.compute(a, b, offset, translation, barrier, gradient != nullptr, hessian != nullptr)) return true;
+  if (!(terms.gap > 0)) return false;
+  sums.energy += terms.value;
+  sums.gap = std::min(gap, terms.gap);
+  if (forces)
+    forces->push_back({pair, terms.gap, terms.force, terms.place + state.positions.col(pair.a), terms.normal});
+  // Local coordinates: six of a, six of b, three of the strain.
+  const std::array<int, 3> from = {0, 6, 12}, length = {6, 6, 3}, to = {6 * pair.a, 6 * pair.b, coordinateCount() - 3};
+  for (int i = 0; i < 3; ++i) {
+    if (gradient) gradient->segment(to[i], length[i]) += terms.gradient.segment(from[i], length[i]);
+    if (!hessian) continue;
+    for (int j = 0; j < 3; ++j)
+      hessian->block(to[i], to[j], length[i], length[j]) += terms.hessian.block(from[i], from[j], length[i], length[j]);
+  }
+  return true;
+}
+
+double CellContact::smallestGap(const CellState& state, double reach, PartPair* where) const {
+  const std::vector<Pose> poses = posesOf(state);
+  double smallest = reach;
+  for (const PartPair& pair : nearParts(state, reach)) {
+    const PlacedPart a = placed(poses, pair.a, pair.partA), b = placed(poses, pair.b, pair.partB);
+    const Vector3d offset = offsetOf(state, pair.a, pair.b, pair.shift);
+    if (areApart(a, b, offset, a.part->radius + b.part->radius + smallest)) continue;
+    const double gap = gapBetween(a, b, offset);
+    if (gap >= smallest) continue;
+    smallest = gap;
+    if (where) *where = pair;
+  }
+  return smallest;
+}
+
+}  // namespace pliant::interlock

@@ -1,0 +1,65 @@
+#include "core/interlock/cell_equilibrium.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/interlock/equilibrium_search.hpp"
+
+namespace pliant::interlock {
+
+using base::TerminationType;
+using Eigen::VectorXd;
+
+CellSolver::CellSolver(const UnitCell& cell, const EquilibriumOptions& options)
+    : contact_(cell),
+      options_(options),
+      linkFinder_(contact_),
+      links_(linkFinder_.linksAt(restState(cell)).value_or(std::vector<Link>{})),
+      radius_(cell.smallestRadius()),
+      latticeScale_(std::sqrt(std::abs(cell.lattice.determinant()))) {}
+
+CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& drive,
+                                  const base::ExecutionContext* context) const {
+  EquilibriumSearch search(*this, start, drive, context);
+  CellEquilibrium result;
+  const auto fail = [&](const std::string& message) {
+    result.state = start;
+    result.termination = TerminationType::failed;
+    result.message = message;
+    return result;
+  };
+  if (!(contact_.smallestGap(start, radius_) > 0)) return fail("elements overlap in the state to start from");
+  if (linkFinder_.linksAt(start) != links_)
+    return fail("elements are not linked in the state to start from as at rest");
+  result = search.run();
+  if (linkFinder_.linksAt(result.state) != links_) return fail("a linking number changed on the way");
+  return result;
+}
+
+CellState CellSolver::relaxed(const CellState& state) const {
+  StrainDrive drive;
+  drive.directions.resize(3, 0);
+  return EquilibriumSearch(*this, state, drive, nullptr).relax();
+}
+
+CellState CellSolver::perturbed(const CellState& state, double amplitude, unsigned seed) const {
+  std::mt19937 random(seed);
+  VectorXd velocity = VectorXd::Zero(contact_.coordinateCount());
+  for (Eigen::Index i = 0; i < velocity.size() - 3; ++i) {
+    const int element = static_cast<int>(i / 6);
+    const double scale = i % 6 < 3 ? radius_ : radius_ / contact_.partsOf(element).reach();
+    velocity[i] = scale * (2 * (random() / 4294967296.0) - 1);
+  }
+  const double reach = 2 * radius_, gap = contact_.smallestGap(state, reach);
+  for (double step = amplitude; step > 1e-9 * amplitude; step *= 0.5) {
+    const CellState next = moved(state, velocity, step);
+    // Far less than what could take one element through another.
+    if (step <= 0.1 && contact_.smallestGap(next, reach) >= 0.5 * gap) return next;
+  }
+  return state;
+}
+
+}  // namespace pliant::interlock

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/surface_mesh.hpp"
+#include "core/interlock/closed_curve.hpp"
+
+namespace pliant::interlock {
+
+/// Points, segments and triangles that share corners (3 x n) [m].
+struct SimplexSet {
+  Eigen::Matrix3Xd corners;
+  std::vector<int> points;
+  std::vector<std::array<int, 2>> segments;
+  std::vector<std::array<int, 3>> triangles;
+  /// Segments must form loops, and triangles a surface without rim: checked in checkShape.
+  bool closed = false;
+};
+
+/// All places nearer than `radius` to a curve or to simplices: a wire, a rounded rod or plate, or a body whose surface
+/// is a triangle mesh, with rounded edges.
+struct DilatedPiece {
+  std::variant<ClosedCurve, SimplexSet> core;
+  double radius = 0;  ///< [m], above 0
+};
+
+DilatedPiece wire(const ClosedCurve& curve, double radius);
+/// A rod with round ends from `from` to `to` [m].
+DilatedPiece capsule(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
+/// A plate: the convex polygon with these corners (3 x n, in order) [m], rounded.
+DilatedPiece roundedPolygon(const Eigen::Matrix3Xd& corners, double radius);
+/// A closed chain of segments through the points (3 x n) [m], such as a wire that bends sharply.
+DilatedPiece closedChain(const Eigen::Matrix3Xd& points, double radius);
+/// The surface of a body; it must be closed.
+DilatedPiece dilatedMesh(const geometry::SurfaceMesh& mesh, double radius);
+
+/// The rigid body that a material repeats: the union of its pieces, which may overlap each other. Coordinates are
+/// relative to the point about which it turns.
+struct ElementShape {
+  std::string name;
+  std::vector<DilatedPiece> pieces;
+};
+
+/// Throws base::InputError (location empty) with a sentence that names shape and piece: no pieces, a radius not above
+/// 0, a coordinate not finite, a curve or chain of no length, corners out of range, or an open piece that is declared
+/// closed.
+void checkShape(const ElementShape& shape);
+
+}  // namespace pliant::interlock

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/interlock/dilated_piece.hpp"
+
+namespace pliant::interlock {
+
+/// A rigid element of a cell: its shape turned and moved.
+struct InterlockingElement {
+  int shape = 0;             ///< index in UnitCell::shapes
+  Eigen::Vector3d position;  ///< of the shape's origin [m]
+  Eigen::Matrix3d rotation;  ///< from the shape's coordinates
+};
+
+/// Closed pieces `pieceA` of element `a` and `pieceB` of element `b`, the latter moved by whole lattice vectors, are
+/// linked `number` times (Gauss linking number, with its sign).
+struct Link {
+  int a = 0, pieceA = 0, b = 0, pieceB = 0;
+  std::array<int, 2> shift{};
+  int number = 0;
+
+  friend bool operator==(const Link&, const Link&) = default;
+  friend auto operator<=>(const Link&, const Link&) = default;
+};
+
+/// A material that fills the plane z = 0 by repetition (thesis 4.3.2): the elements of one cell and two translations.
+struct UnitCell {
+  std::string name;
+  std::vector<ElementShape> shapes;
+  std::vector<InterlockingElement> elements;
+  Eigen::Matrix2d lattice = Eigen::Matrix2d::Zero();  ///< translations in its columns [m]
+  std::vector<Link> links;                            ///< that the material is meant to have at rest
+
+  double smallestRadius() const;  ///< of all pieces [m]
+};
+
+/// The same material with `first` x `second` cells as one, whose elements may then move differently.
+UnitCell supercell(const UnitCell& cell, int first, int second);
+
+/// The link with the same meaning whose element `a` is not after `b`, and if they are the same, whose shift is the
+/// later one of (shift, -shift).
+Link canonical(const Link& link);
+
+/// Throws base::InputError (location empty) with one sentence: a faulty shape (see checkShape), no elements, a shape
+/// that is not there, a position or rotation that is none, a lattice whose vectors are parallel, elements that overlap
+/// at rest, closed pieces that are linked otherwise than declared. Only cells that pass may be computed with.
+void checkCell(const UnitCell& cell);
+
+}  // namespace pliant::interlock

@@ -1,0 +1,160 @@
+#include "core/scene/interlock_studies.hpp"
+
+#include <numbers>
+#include <optional>
+
+#include "core/base/stopwatch.hpp"
+#include "core/interlock/boundary_file.hpp"
+#include "core/scene/interlock_builder.hpp"
+#include "core/scene/interlock_result.hpp"
+#include "core/scene/run_information.hpp"
+
+namespace pliant::scene {
+
+using base::TerminationType;
+
+namespace {
+
+interlock::Lateral lateralNamed(const std::string& name) {
+  if (name == "principal") return interlock::Lateral::principal;
+  return name == "held" ? interlock::Lateral::held : interlock::Lateral::free;
+}
+
+class InterlockStudy : public Study {
+ public:
+  /// The model, which a cell has no part in, is not used.
+  InterlockStudy(const Scene& scene, const std::shared_ptr<const mechanics::Model>&, const Json& options)
+      : cell_(std::make_shared<const interlock::UnitCell>(buildCell(scene, options["cell"]))),
+        options_(options),
+        directory_(scene.directory()),
+        provenance_(provenanceOf(scene, options)) {}
+
+  std::string name() const override { return options_["name"]; }
+  std::string type() const override { return options_["type"]; }
+
+ protected:
+  interlock::EquilibriumOptions equilibriumOptions() const {
+    interlock::EquilibriumOptions options;
+    options.finalGap = options_["final_gap"];
+    return options;
+  }
+
+  interlock::LimitOptions limitOptions() const {
+    interlock::LimitOptions options;
+    options.lateral = lateralNamed(options_["lateral"]);
+    options.perturbation = options_["perturbation"];
+    options.seed = options_["seed"];
+    options.trials = options_["trials"];
+    return options;
+  }
+
+  template <class AnyResult>
+  void finish(AnyResult& result, TerminationType termination, const std::string& message,
+              const base::Stopwatch& watch) const {
+    result.cell = cell_;
+    result.provenance = provenance_;
+    result.termination = termination;
+    result.message = message;
+    result.seconds = watch.seconds();
+  }
+
+  /// Termination and message of one limit: without any it is no result.
+  static std::pair<TerminationType, std::string> outcomeOf(const interlock::DirectionLimit& limit) {
+    if (limit.equilibrium.converged() && limit.equilibrium.kind == interlock::RestKind::unlimited)
+      return {TerminationType::infeasible, "nothing limits this deformation"};
+    return {limit.equilibrium.termination, limit.equilibrium.message};
+  }
+
+  std::shared_ptr<const interlock::UnitCell> cell_;
+  Json options_;
+  std::filesystem::path directory_;
+  Provenance provenance_;
+};
+
+class CellTestStudy final : public InterlockStudy {
+ public:
+  using InterlockStudy::InterlockStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    const base::Stopwatch watch;
+    auto result = std::make_shared<CellTestResult>();
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    result->limit = interlock::directionLimit(
+        solver, options_["direction"], options_["load"] == "compress", limitOptions(), &context);
+    const auto [termination, message] = outcomeOf(result->limit);
+    finish(*result, termination, message, watch);
+    context.reportProgress(1);
+    if (observe) observe(result);
+    return result;
+  }
+};
+
+class FreeTravelStudy final : public InterlockStudy {
+ public:
+  using InterlockStudy::InterlockStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    const base::Stopwatch watch;
+    auto result = std::make_shared<FreeTravelResult>();
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    std::vector<double> angles(options_["directions"].get<std::size_t>());
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      angles[i] = std::numbers::pi * static_cast<double>(i) / static_cast<double>(angles.size());
+    result->directions = interlock::freeTravel(solver, angles, limitOptions(), context);
+    TerminationType termination = TerminationType::converged;
+    std::string message;
+    for (const interlock::FreeTravel& direction : result->directions)
+      for (const auto* limit : {&direction.stretch, &direction.compression})
+        if (const auto [each, sentence] = outcomeOf(*limit); termination == TerminationType::converged)
+          termination = each, message = sentence;
+    finish(*result, termination, message, watch);
+    if (observe) observe(result);
+    return result;
+  }
+};
+
+class StretchBoundaryStudy final : public InterlockStudy {
+ public:
+  using InterlockStudy::InterlockStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    const base::Stopwatch watch;
+    auto result = std::make_shared<StretchBoundaryResult>();
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    interlock::BoundaryOptions options;
+    options.subdivisions = options_["subdivisions"];
+    options.perturbation = options_["perturbation"];
+    options.seed = options_["seed"];
+    options.tolerance = options_["tolerance"];
+    options.maximumStates = options_["maximum_states"];
+    options.testStarShape = options_["test_star_shape"];
+    std::optional<interlock::BoundaryFile> memory;
+    if (options_.contains("checkpoint"))
+      memory.emplace(directory_ / options_["checkpoint"].get<std::string>(),
+                     provenance_.version + " " + provenance_.sceneHash + " " + options_.dump());
+    if (memory) result->recalled = memory->recalledCount();
+    result->boundary = interlock::computeBoundary(solver, options, context, memory ? &*memory : nullptr);
+    finish(*result, result->boundary.termination, result->boundary.message, watch);
+    if (observe) observe(result);
+    return result;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Study> makeCellTestStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                         const Json& options) {
+  return std::make_unique<CellTestStudy>(scene, std::move(model), options);
+}
+
+std::unique_ptr<Study> makeFreeTravelStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                           const Json& options) {
+  return std::make_unique<FreeTravelStudy>(scene, std::move(model), options);
+}
+
+std::unique_ptr<Study> makeStretchBoundaryStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                                const Json& options) {
+  return std::make_unique<StretchBoundaryStudy>(scene, std::move(model), options);
+}
+
+}  // namespace pliant::scene
