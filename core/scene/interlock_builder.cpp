@@ -1,6 +1,7 @@
 #include "core/scene/interlock_builder.hpp"
 
 #include "core/base/error.hpp"
+#include "core/interlock/cell_surface.hpp"
 #include "core/interlock/element_families.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
@@ -29,20 +30,39 @@ interlock::UnitCell cellFrom(const Json& entry) {
   return interlock::ringNet({entry["ring_radius"], entry["wire_radius"], entry["spacing"]});
 }
 
+interlock::UnitCell cellAt(const Json& cells, std::size_t index) {
+  interlock::UnitCell cell;
+  locate(childPointer("/interlocking_cells", index), [&] {
+    cell = cellFrom(cells[index]);
+    cell.name = cells[index]["name"];
+    checkCell(cell);
+    cell = supercell(cell, cells[index]["supercell"][0], cells[index]["supercell"][1]);
+  });
+  return cell;
+}
+
 }  // namespace
 
 interlock::UnitCell buildCell(const Scene& scene, const std::string& name) {
   const Json& cells = scene.normalized()["interlocking_cells"];
   std::size_t index = 0;
   while (cells[index]["name"] != name) ++index;  // references have been checked
-  interlock::UnitCell cell;
-  locate(scene.name() + ": " + childPointer("/interlocking_cells", index), [&] {
-    cell = cellFrom(cells[index]);
-    cell.name = name;
-    checkCell(cell);
-    cell = supercell(cell, cells[index]["supercell"][0], cells[index]["supercell"][1]);
-  });
-  return cell;
+  try {
+    return cellAt(cells, index);
+  } catch (const base::InputError& error) {
+    throw error.inside(scene.name());
+  }
+}
+
+mechanics::Model cellPicture(const Scene& scene) {
+  constexpr int cells = 3;
+  const interlock::UnitCell cell = cellAt(scene.normalized()["interlocking_cells"], 0);
+  const geometry::SurfaceMesh mesh = interlock::cellSurface(cell, interlock::restState(cell), cells, cells);
+  mechanics::Model model;
+  model.restPositions = mesh.points.reshaped();
+  model.parts.push_back({cell.name, 0, model.nodeCount(), mesh.triangles, {}, {}, {}, {}});
+  model.dofs.freeIndex.assign(static_cast<std::size_t>(model.coordinateCount()), -1);
+  return model;
 }
 
 }  // namespace pliant::scene

@@ -9,6 +9,7 @@
 #include "core/mechanics/spring.hpp"
 #include "core/scene/element_builders.hpp"
 #include "core/scene/input_error_location.hpp"
+#include "core/scene/interlock_builder.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/mechanism_builders.hpp"
 #include "core/scene/placed_geometry.hpp"
@@ -44,7 +45,6 @@ class Builder {
   }
 
   mechanics::Model build() {
-    if (geometries_.empty()) return std::move(model_);  // a scene of interlocking cells alone
     addNodes();
     forEach("drives", [&](const Json& entry, const std::string& pointer) {
       if (entry["type"] == "servo")
@@ -277,7 +277,11 @@ class Builder {
   std::vector<mechanics::ShellPanel> panels_;
 };
 
-mechanics::Model buildWithoutSceneParameters(const Scene& scene) { return Builder(scene).build(); }
+mechanics::Model buildWithoutSceneParameters(const Scene& scene) {
+  const Json& parts = scene.normalized();
+  if (parts["geometry"].empty() && !parts["interlocking_cells"].empty()) return cellPicture(scene);
+  return Builder(scene).build();
+}
 
 }  // namespace
 

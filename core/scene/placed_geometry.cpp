@@ -181,9 +181,7 @@ std::vector<PlacedGeometry> placeGeometry(const Scene& scene) {
     nodeCount += geometry.ownCount;
     geometries.push_back(std::move(geometry));
   }
-  // Interlocking cells need none; studies of anything else refuse to be made.
-  if (nodeCount == 0 && (!geometries.empty() || scene.normalized()["interlocking_cells"].empty()))
-    throw InputError("/geometry", "The scene has no nodes.");
+  if (nodeCount == 0) throw InputError("/geometry", "The scene has no nodes.");
   sewSeams(scene.normalized()["seams"], geometries);
   return geometries;
 }

@@ -57,7 +57,7 @@ std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<c
                                            const std::string& studyName) const {
   for (const Json& options : scene.normalized()["studies"])
     if (options["name"] == studyName) {
-      if (model->nodeCount() == 0 && !options.contains("cell"))
+      if (scene.normalized()["geometry"].empty() && !options.contains("cell"))
         throw base::InputError(
             scene.name() + ": /geometry", "The scene has no nodes, which the study " + quote(studyName) + " needs.");
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));

@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 #include <cmath>
 #include <set>
 
