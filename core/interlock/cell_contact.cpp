@@ -119,19 +119,19 @@ std::vector<CellContact::ImagePair> CellContact::nearElements(const CellState& s
 std::vector<PartPair> CellContact::nearParts(const CellState& state, double reach) const {
   std::vector<PartPair> pairs;
   std::vector<std::array<int, 2>> stack;
+  std::vector<Matrix3Xd> centres(cell_.elements.size());  // of all balls, turned
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    centres[i] = state.rotations[i] * partsOf(static_cast<int>(i)).centres();
   for (const auto& [a, b, shift] : nearElements(state, reach)) {
     const ElementParts &first = partsOf(a), &second = partsOf(b);
-    // Everything as seen from b, so that only the balls of a have to be turned.
-    const Matrix3d toB = state.rotations[b].transpose();
-    const Matrix3d turn = toB * state.rotations[a];
-    const Vector3d offset = toB * offsetOf(state, a, b, shift);
+    const Vector3d offset = offsetOf(state, a, b, shift);
     stack.assign(1, {0, 0});
     while (!stack.empty()) {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const ElementParts::Node &nodeA = first.nodes()[i], &nodeB = second.nodes()[j];
       const double touching = nodeA.ball.radius + nodeB.ball.radius + reach;
-      if ((turn * nodeA.ball.centre + offset - nodeB.ball.centre).squaredNorm() >= touching * touching) continue;
+      if ((centres[a].col(i) + offset - centres[b].col(j)).squaredNorm() >= touching * touching) continue;
       if (nodeA.part >= 0 && nodeB.part >= 0) {
         if (countsAsContact(first.parts()[nodeA.part], second.parts()[nodeB.part]))
           pairs.push_back({a, b, shift, nodeA.part, nodeB.part});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/interlock/element_parts.hpp"
@@ -51,6 +52,8 @@ class CellContact {
     double weight;
     double range;   ///< [m]
     int split = 1;  ///< each arc counts as so many
+    /// Hessians of contacts that push harder are scaled down as if they pushed like this [1/m].
+    double largestForce = std::numeric_limits<double>::infinity();
   };
 
   /// The default cuts a circle into 24 arcs.

@@ -35,8 +35,10 @@ bool ContactTerms::compute(const PlacedPart& a, const PlacedPart& b, const Vecto
                            const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
                            bool wantHessian) {
   const bool arcs = a.part->kind == PartKind::arc || b.part->kind == PartKind::arc;
-  return arcs ? computeArcs(a, b, offset, translation, barrier, wantGradient, wantHessian)
-              : computeSimplices(a, b, offset, translation, barrier, wantGradient, wantHessian);
+  const bool near = arcs ? computeArcs(a, b, offset, translation, barrier, wantGradient, wantHessian)
+                         : computeSimplices(a, b, offset, translation, barrier, wantGradient, wantHessian);
+  if (near && gap > 0 && wantHessian && force > barrier.largestForce) hessian *= barrier.largestForce / force;
+  return near;
 }
 
 /// f(q, u) = ½|X_A - X_B|², D = min_u f: ∇D = f_q, ∇²D = f_qq - f_qu f_uu⁻¹ f_uq, of which d = sqrt(2D).
@@ -64,7 +66,7 @@ bool ContactTerms::computeArcs(const PlacedPart& a, const PlacedPart& b, const V
   if (!wantHessian) return true;
 
   const Vector3d& between = closest.between;
-  hessian.noalias() = jacobian.transpose() * jacobian;
+  hessian = jacobian.transpose().lazyProduct(jacobian);
   hessian.block<3, 3>(3, 3) += rotationTerm(between, closest.armA);
   hessian.block<3, 3>(9, 9) -= rotationTerm(between, closest.armB);
   if (const int free = closest.freeCount; free > 0) {
@@ -134,8 +136,9 @@ bool ContactTerms::computeSimplices(const PlacedPart& a, const PlacedPart& b, co
   const geometry::CornerMatrix second = element.hessian(0);
   hessian.setZero();
   for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < count; ++j)
-      hessian.noalias() += jacobians[i].transpose() * second.block<3, 3>(3 * i, 3 * j) * jacobians[j];
+    Jacobian row = Jacobian::Zero();
+    for (int j = 0; j < count; ++j) row += second.block<3, 3>(3 * i, 3 * j).lazyProduct(jacobians[j]);
+    hessian += jacobians[i].transpose().lazyProduct(row);
     const int turn = ofA[i] ? 3 : 9;
     hessian.block<3, 3>(turn, turn) += rotationTerm(ofCorners.segment<3>(3 * i), arms[i]);
   }

@@ -25,6 +25,8 @@ ElementParts::ElementParts(const ElementShape& shape, double arcTurn) : corners_
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(2 * parts_.size());
   build(order, balls);
+  centres_.resize(3, static_cast<Eigen::Index>(nodes_.size()));
+  for (std::size_t i = 0; i < nodes_.size(); ++i) centres_.col(static_cast<Eigen::Index>(i)) = nodes_[i].ball.centre;
 }
 
 void ElementParts::addCurve(const ClosedCurve& curve, int piece, double radius, double arcTurn) {

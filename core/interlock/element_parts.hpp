@@ -46,6 +46,8 @@ class ElementParts {
   const Eigen::Matrix3Xd& corners() const { return corners_; }
   /// The first is the root.
   const std::vector<Node>& nodes() const { return nodes_; }
+  /// Of the nodes' balls, in columns.
+  const Eigen::Matrix3Xd& centres() const { return centres_; }
   /// No point of the element is farther from its origin [m].
   double reach() const { return reach_; }
 
@@ -59,6 +61,7 @@ class ElementParts {
   std::vector<ClosedCurve> curves_;
   Eigen::Matrix3Xd corners_;
   std::vector<Node> nodes_;
+  Eigen::Matrix3Xd centres_;
   double reach_ = 0;
 };
 

@@ -29,6 +29,7 @@ EquilibriumSearch::EquilibriumSearch(const CellSolver& solver, const CellState& 
       drive_(drive),
       context_(context),
       pathLimit_(0.95 * 4 * solver.radius_),
+      trust_(0.25 * pathLimit_),
       state_(start) {
   const int size = contact_.coordinateCount(), elements = (size - 3) / 6;
   const int free = static_cast<int>(drive.directions.cols());
@@ -69,9 +70,9 @@ VectorXd EquilibriumSearch::direction(const VectorXd& gradient, const MatrixXd& 
   const VectorXd reduced = basis_.transpose() * gradient;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(basis_.transpose() * hessian * basis_);
   // Along soft directions, and those that change nothing but rounding errors, as rotations of a ring about its axis,
-  // steps end where contact would have to be looked at anew.
+  // steps end at the trust radius. Others keep their full length, so that gaps can settle while elements slide.
   const VectorXd along = solver.eigenvectors().transpose() * reduced;
-  const VectorXd values = solver.eigenvalues().cwiseAbs().cwiseMax(along.cwiseAbs() / (0.25 * pathLimit_));
+  const VectorXd values = solver.eigenvalues().cwiseAbs().cwiseMax(along.cwiseAbs() / trust_);
   const VectorXd step = (values.array() > 0).select(-along.array() / values.array(), 0.0).matrix();
   decrement = -along.dot(step);
   return basis_ * (solver.eigenvectors() * step);
@@ -133,6 +134,7 @@ EquilibriumSearch::Outcome EquilibriumSearch::minimize(const CellContact::Barrie
     ++iterations_;
 
     double step = largestStep(velocity, barrier.range);
+    const double longest = step;
     const double path = step * relativePath(velocity, 2 * (barrier.range + pathLimit_));
     pairs_ = contact_.nearParts(state_, barrier.range + path);
     CellState next;
@@ -143,6 +145,10 @@ EquilibriumSearch::Outcome EquilibriumSearch::minimize(const CellContact::Barrie
       const double trial = contact_.energy(next, pairs_, barrier, nullptr, nullptr, &nextGap) + objective(next);
       if (trial <= energy - 1e-4 * step * decrement_ && nextGap >= keptGap * gap) break;
     }
+    if (step < 0.5 * longest)
+      trust_ = std::max(0.25 * trust_, 1e-6 * pathLimit_);
+    else if (step == longest)
+      trust_ = std::min(2 * trust_, 0.25 * pathLimit_);
     state_ = next;
     if (travelled(state_.strain) >= drive_.farthest * (1 - 1e-12)) return Outcome::reached;
     if (isUnlimited()) return Outcome::unlimited;
@@ -189,6 +195,12 @@ CellEquilibrium EquilibriumSearch::run() {
     predicted = share * gap;
     barrier.weight *= share;
     barrier.range = std::clamp(options.rangeRatio * predicted, options.rangeRatio * finalGap, solver_.radius_);
+    // What holds the cell pushes about as before. A contact that pushes far harder is not in balance: with the
+    // stiffness of such a force Newton's method would only double its gap in a step, and creep along curved surfaces,
+    // as methods that know the balanced forces (primal-dual ones) do not.
+    double largest = 0;
+    for (const CellContactForce& contact : result.contacts) largest = std::max(largest, contact.force);
+    if (largest > 0) barrier.largestForce = 4 * largest;
     barrier.split = predicted > 0.03 * solver_.radius_ ? 1 : predicted > 3e-3 * solver_.radius_ ? 2 : 4;
   }
   result.state = state_;

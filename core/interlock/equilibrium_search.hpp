@@ -44,6 +44,7 @@ class EquilibriumSearch {
   /// along the drive's directions.
   Eigen::MatrixXd basis_;
   double pathLimit_;  ///< [m]
+  double trust_;      ///< longest step along an eigenvector [m]
   CellState state_;
   std::vector<PartPair> pairs_;  ///< near enough for the barrier at state_
   double decrement_ = 0;         ///< Newton's, at the last point looked at

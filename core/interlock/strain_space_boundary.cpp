@@ -127,7 +127,7 @@ class BoundaryComputation {
     math::parallelFor(static_cast<int>(before.size()), [&](int i) {
       const int j = farthest[i];
       if (context_.cancelRequested() || before[j].distance <= before[i].distance * (1 + tryAbove)) return;
-      if (before[j].distance == tried_[i]) return;
+      if (before[j].distance == tried_[i] || foldsAlike(before[i].cell, before[j].cell)) return;
       tried_[i] = before[j].distance;
       const std::string name = "test " + std::to_string(before.size()) + " " + std::to_string(round) + " ";
       boundary_.states[i] = recalled(
@@ -135,6 +135,18 @@ class BoundaryComputation {
       if (boundary_.states[i].distance != before[i].distance) changed = true;
     });
     return changed;
+  }
+
+  /// Whether all elements are placed and turned nearly the same, as in states of one way to fold.
+  bool foldsAlike(const CellState& first, const CellState& second) const {
+    const double near = solver_.contact().cell().smallestRadius();
+    for (std::size_t i = 0; i < first.rotations.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const double turn = Eigen::AngleAxisd(first.rotations[i].transpose() * second.rotations[i]).angle();
+      const double reach = solver_.contact().partsOf(static_cast<int>(i)).reach();
+      if ((first.positions.col(column) - second.positions.col(column)).norm() + turn * reach > near) return false;
+    }
+    return true;
   }
 
   BoundaryState tested(const BoundaryState& own, const BoundaryState& neighbour, const Vector3d& direction) const {

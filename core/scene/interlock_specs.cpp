@@ -47,7 +47,9 @@ std::vector<ParameterSpec> rosetteKeys(const char* ring, const char* wire, const
           angleKey("lean", "By which each ring is turned out of the plane about its radius.", lean), spacing(apart)};
 }
 
-ParameterSpec cellReference() { return reference("cell", "The material.", "interlocking_cells"); }
+ParameterSpec cellReference() {
+  return optional(reference("cell", "The material; may be left out if there is one.", "interlocking_cells"));
+}
 
 std::vector<ParameterSpec> contactKeys() {
   return {withDefault(positive(within(number("final_gap", "",
