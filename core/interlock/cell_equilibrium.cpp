@@ -55,7 +55,7 @@ CellState CellSolver::perturbed(const CellState& state, double amplitude, unsign
   }
   const double reach = 2 * radius_, gap = contact_.smallestGap(state, reach);
   for (double step = amplitude; step > 1e-9 * amplitude; step *= 0.5) {
-    const CellState next = moved(state, velocity, step);
+    CellState next = moved(state, velocity, step);
     // Far less than what could take one element through another.
     if (step <= 0.1 && contact_.smallestGap(next, reach) >= 0.5 * gap) return next;
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/interlock/dilated_piece.hpp"
@@ -23,7 +24,10 @@ struct Link {
   int number = 0;
 
   friend bool operator==(const Link&, const Link&) = default;
-  friend auto operator<=>(const Link&, const Link&) = default;
+  friend bool operator<(const Link& x, const Link& y) {
+    return std::tie(x.a, x.pieceA, x.b, x.pieceB, x.shift, x.number) <
+           std::tie(y.a, y.pieceA, y.b, y.pieceB, y.shift, y.number);
+  }
 };
 
 /// A material that fills the plane z = 0 by repetition (thesis 4.3.2): the elements of one cell and two translations.

@@ -40,6 +40,7 @@ class Defaults {
 
   Json make(const std::string& list, const std::string& type) const {
     if (list == "geometry") return geometry(type);
+    if (list == "interlocking_cells") return Json::object();  // all of its keys have defaults
     if (list == "materials") return {{"density", "1200 kg/m^3"}, {"young_modulus", "3 GPa"}, {"poisson_ratio", 0.35}};
     if (list == "elements") return element(type);
     if (list == "parameters") return parameter();
@@ -66,7 +67,7 @@ class Defaults {
   Json at(int node) const {
     Json place = Json::array();
     for (int axis = 0; axis < model_.dimension; ++axis)
-      place.push_back(shortened(model_.restPositions[node * model_.dimension + axis]));
+      place.push_back(model_.nodeCount() > 0 ? shortened(model_.restPositions[node * model_.dimension + axis]) : 0.0);
     Json selection = Json::object();
     if (model_.parts.size() > 1)
       for (const auto& part : model_.parts)
@@ -104,7 +105,7 @@ class Defaults {
   }
 
   /// The node `others` further than the selected one, going around.
-  int next(int others) const { return (node_ + others) % model_.nodeCount(); }
+  int next(int others) const { return (node_ + others) % std::max(1, model_.nodeCount()); }
 
   /// A joint at the selected node between the links to the next two.
   Json joint() const { return {{"joint", at(node_)}, {"from", at(next(1))}, {"to", at(next(2))}}; }
@@ -185,7 +186,8 @@ class Defaults {
           if (field.key == "to") entry["to"] = to;
         }
     if (type == "backbone") {
-      const double extent = model_.restPositions.maxCoeff() - model_.restPositions.minCoeff();
+      const double extent =
+          model_.nodeCount() > 0 ? model_.restPositions.maxCoeff() - model_.restPositions.minCoeff() : 0;
       entry["maximum_amplitude"] = extent > 0 ? 0.1 * extent : 0.1;
     }
     return entry;
@@ -246,7 +248,7 @@ Json defaultEntry(const scene::Scene& scene, const mechanics::Model& model, cons
   Json entry{{"name", freeName(normalized.at(list), nameOf(list, type))}};
   const ParameterSpec* spec = listSpec(list);
   if (spec && spec->items.front().kind == ValueKind::variant) entry["type"] = type;
-  entry.update(Defaults(scene, model, std::clamp(node, 0, model.nodeCount() - 1)).make(list, type));
+  entry.update(Defaults(scene, model, std::clamp(node, 0, std::max(0, model.nodeCount() - 1))).make(list, type));
   return entry;
 }
 
