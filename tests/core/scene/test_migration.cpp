@@ -1,3 +1,4 @@
+#include <QFloat16>  // comparing JSON asks about every type that Qt can compare
 #include <QTest>
 
 #include "core/base/error.hpp"
