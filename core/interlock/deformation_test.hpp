@@ -21,8 +21,8 @@ StrainDrive rayDrive(const Eigen::Vector3d& direction);
 
 struct LimitOptions {
   Lateral lateral = Lateral::free;
-  /// Structures are often symmetric, and then held on a saddle under compression: elements are moved at random first by
-  /// this times the smallest radius. 0: not at all, which gives the limit of the symmetric motion.
+  /// Structures are often symmetric, and then held near a saddle under compression: elements are moved at random first
+  /// by about this times the smallest radius. 0: not at all, which does not keep the symmetry either.
   double perturbation = 0.01;
   unsigned seed = 1;
   /// Tries with different seeds, of which the farthest counts: for compression, where there are many ways to fold.

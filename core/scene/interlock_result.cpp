@@ -29,13 +29,11 @@ std::string_view nameOf(interlock::RestKind kind) {
   return "unlimited";
 }
 
-bool InterlockResult::symmetryBroken() const { return provenance.options.value("perturbation", 0.0) > 0; }
-
 Json InterlockResult::materialSummary() const {
   Json json = summaryHead(*this);
   json["cell"] = cell->name;
   json["elements_in_cell"] = cell->elements.size();
-  json["symmetry_broken"] = symmetryBroken();
+  json["perturbation"] = provenance.options.value("perturbation", 0.0);
   json["smallest_radius"] = cell->smallestRadius();
   return json;
 }

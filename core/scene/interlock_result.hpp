@@ -15,8 +15,6 @@ class InterlockResult : public Result {
  protected:
   /// Head of the summary: what the numbers hold for.
   Json materialSummary() const;
-  /// Whether elements were moved at random before they were pulled.
-  bool symmetryBroken() const;
 };
 
 /// One limit: "cell_test".

@@ -60,8 +60,8 @@ std::vector<ParameterSpec> contactKeys() {
                       1e-4),
           withDefault(
               within(number("perturbation", "",
-                            "Elements are moved at random by this times the wire radius before they are pulled, which "
-                            "breaks the symmetries that would hold them on a saddle; 0: not at all.",
+                            "Elements are moved at random by about this times the wire radius before they are pulled, "
+                            "which breaks the symmetries that would hold them near a saddle.",
                             dimensions::none),
                      0, 1),
               0.01),
