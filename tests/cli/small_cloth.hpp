@@ -15,7 +15,7 @@ inline constexpr char smallClothScene[] = R"json({
     {"name": "second", "type": "pin", "at": {"nearest": [0, 0.25, 0]}}],
   "loads": [{"name": "weight", "type": "gravity", "acceleration": [0, 0, -9.81]}],
   "studies": [{"name": "swing", "type": "cloth_motion", "duration": 0.1, "time_step": 0.01},
-              {"name": "drape", "type": "cloth_drape"}]
+              {"name": "drape", "type": "cloth_drape", "frame_every": 1}]
 })json";
 
 }  // namespace pliant::test

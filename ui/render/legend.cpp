@@ -18,7 +18,6 @@
 namespace pliant::render {
 namespace {
 
-constexpr int stripCells = 128;
 constexpr double stripWidth = 14, margin = 16, labelWidth = 52, tickLength = 4;
 
 /// "%" from a hundredth on, else a power of a thousand.
@@ -128,13 +127,14 @@ void Legend::layOut(int windowWidth, int windowHeight) {
   vtkNew<vtkPoints> corners;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkDoubleArray> values;
-  for (int i = 0; i <= stripCells; ++i) {
-    const double y = bottom + (top - bottom) * i / stripCells;
-    corners->InsertNextPoint(left, y, 0);
-    corners->InsertNextPoint(right, y, 0);
-    if (i == stripCells) break;
+  // A cell a row of pixels: where edges run through a pixel's middle, rounding would choose its colour.
+  const int rows = static_cast<int>(top - bottom);
+  for (int i = 0; i <= rows; ++i) {
+    corners->InsertNextPoint(left, bottom + i, 0);
+    corners->InsertNextPoint(right, bottom + i, 0);
+    if (i == rows) break;
     cells->InsertNextCell({2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2});
-    values->InsertNextValue(minimum_ + (maximum_ - minimum_) * (i + 0.5) / stripCells);
+    values->InsertNextValue(minimum_ + (maximum_ - minimum_) * (i + 0.5) / rows);
   }
   strip_->SetPoints(corners);
   strip_->SetPolys(cells);
