@@ -67,7 +67,7 @@ class Defaults {
   Json at(int node) const {
     Json place = Json::array();
     for (int axis = 0; axis < model_.dimension; ++axis)
-      place.push_back(model_.nodeCount() > 0 ? shortened(model_.restPositions[node * model_.dimension + axis]) : 0.0);
+      place.push_back(shortened(model_.restPositions[node * model_.dimension + axis]));
     Json selection = Json::object();
     if (model_.parts.size() > 1)
       for (const auto& part : model_.parts)
@@ -105,7 +105,7 @@ class Defaults {
   }
 
   /// The node `others` further than the selected one, going around.
-  int next(int others) const { return (node_ + others) % std::max(1, model_.nodeCount()); }
+  int next(int others) const { return (node_ + others) % model_.nodeCount(); }
 
   /// A joint at the selected node between the links to the next two.
   Json joint() const { return {{"joint", at(node_)}, {"from", at(next(1))}, {"to", at(next(2))}}; }
@@ -186,8 +186,7 @@ class Defaults {
           if (field.key == "to") entry["to"] = to;
         }
     if (type == "backbone") {
-      const double extent =
-          model_.nodeCount() > 0 ? model_.restPositions.maxCoeff() - model_.restPositions.minCoeff() : 0;
+      const double extent = model_.restPositions.maxCoeff() - model_.restPositions.minCoeff();
       entry["maximum_amplitude"] = extent > 0 ? 0.1 * extent : 0.1;
     }
     return entry;
@@ -248,7 +247,7 @@ Json defaultEntry(const scene::Scene& scene, const mechanics::Model& model, cons
   Json entry{{"name", freeName(normalized.at(list), nameOf(list, type))}};
   const ParameterSpec* spec = listSpec(list);
   if (spec && spec->items.front().kind == ValueKind::variant) entry["type"] = type;
-  entry.update(Defaults(scene, model, std::clamp(node, 0, std::max(0, model.nodeCount() - 1))).make(list, type));
+  entry.update(Defaults(scene, model, std::clamp(node, 0, model.nodeCount() - 1)).make(list, type));
   return entry;
 }
 
