@@ -7,12 +7,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "ui/render/thread_safe_text.hpp"
-
 namespace pliant::render {
 
 OpenGLWindow::OpenGLWindow() {
-  makeTextThreadSafe();
   SetFrameBlitModeToNoBlit();
   SetOwnContext(0);
   SetMultiSamples(0);

@@ -3,6 +3,7 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkStdString.h>
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
@@ -12,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "ui/render/offscreen_target.hpp"
+#include "ui/render/stage.hpp"
 #include "ui/render/vtk_text.hpp"
 
 namespace pliant::render {
@@ -42,8 +43,9 @@ class TestThreadSafeText : public QObject {
   Q_OBJECT
 
  private Q_SLOTS:
-  void everyWindowSeesToIt() {
-    const OffscreenTarget target;
+  void everyStageSeesToIt() {
+    const vtkNew<vtkTextActor> earlier;
+    const Stage stage;
     QCOMPARE(vtkTextRenderer::GetInstance()->GetClassName(), "LockedTextRenderer");
   }
 
