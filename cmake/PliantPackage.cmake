@@ -14,6 +14,7 @@ endforeach()
 set(data ${CMAKE_INSTALL_DATADIR}/pliant)
 install(DIRECTORY scenes DESTINATION ${data})
 install(FILES resources/pliant-scene.schema.json DESTINATION ${data}/resources)
+install(PROGRAMS resources/pliant-shards.sbatch DESTINATION ${data}/resources)
 
 set(id org.pliant.Pliant)
 install(FILES resources/desktop/${id}.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)

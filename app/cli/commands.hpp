@@ -31,6 +31,10 @@ struct RunOptions {
   std::string plot;                   ///< PNG file for what the results show; empty: none
 };
 ExitStatus run(const RunOptions& options);
+/// Only one share of the work, such as "3/8".
+ExitStatus runShard(const RunOptions& options, const std::string& shard);
+/// The results of what shards have computed; of all studies that have shards if none is named.
+ExitStatus mergeShards(const RunOptions& options);
 
 ExitStatus validate(const std::string& scene);
 

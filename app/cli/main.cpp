@@ -27,6 +27,15 @@ void addMotion(CLI::App* verb, MotionOptions& motion) {
       "--time", motion.time, "Time within the period, such as 0.1 or \"20 ms\" (0), or of a cloth (its last frame)");
 }
 
+void addRun(CLI::App* verb, RunOptions& options, const char* studies) {
+  addScene(verb, options.scene);
+  verb->add_option("--out", options.out, "Folder for the results, one folder a study")->required();
+  verb->add_option("--study", options.studies, studies)->allow_extra_args(false);
+  verb->add_option("--set", options.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--threads", options.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
+}
+
 int runProgram(int argc, char** argv) {
   CLI::App program("Designs nonlinear mechanical systems: computes what a scene file describes.", "pliant-cli");
   program.set_version_flag("--version", "pliant-cli " PLIANT_VERSION);
@@ -39,16 +48,19 @@ int runProgram(int argc, char** argv) {
   verb->callback([&] { status = list(scene); });
 
   RunOptions runOptions;
+  std::string shard;
   verb = program.add_subcommand("run", "Compute studies and write their results");
-  addScene(verb, runOptions.scene);
-  verb->add_option("--out", runOptions.out, "Folder for the results, one folder a study")->required();
-  verb->add_option("--study", runOptions.studies, "Study to compute; may be repeated; else all")
-      ->allow_extra_args(false);
-  verb->add_option("--set", runOptions.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_option("--threads", runOptions.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
-  verb->add_option("--plot", runOptions.plot, "PNG file for the charts of the results, as `plot` draws them");
-  verb->callback([&] { status = run(runOptions); });
+  addRun(verb, runOptions, "Study to compute; may be repeated; else all");
+  CLI::Option* plotFile =
+      verb->add_option("--plot", runOptions.plot, "PNG file for the charts of the results, as `plot` draws them");
+  verb->add_option(
+          "--shard", shard, "I/N: compute only the I-th of N shares, for `merge`; for processes that share a large job")
+      ->excludes(plotFile);
+  verb->callback([&] { status = shard.empty() ? run(runOptions) : runShard(runOptions, shard); });
+
+  verb = program.add_subcommand("merge", "Make the results of what `run --shard` has computed");
+  addRun(verb, runOptions, "Study to merge; may be repeated; else all that have shards");
+  verb->callback([&] { status = mergeShards(runOptions); });
 
   verb = program.add_subcommand("validate", "Check a scene without computing");
   addScene(verb, scene);

@@ -1,12 +1,12 @@
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/progress_display.hpp"
+#include "app/cli/run_summary.hpp"
+#include "app/cli/shards.hpp"
 #include "core/base/error.hpp"
 #include "core/math/parallel.hpp"
 #include "core/scene/expected_values.hpp"
@@ -16,7 +16,6 @@
 
 namespace pliant::cli {
 
-namespace dimensions = base::dimensions;
 using scene::Json;
 
 namespace {
@@ -29,13 +28,6 @@ scene::Scene applySetting(const scene::Scene& scene, const std::string& setting)
   const std::string text = setting.substr(equals + 1);
   const Json value = Json::parse(text, nullptr, false);
   return scene.withValue(setting.substr(0, equals), value.is_discarded() ? Json(text) : value);
-}
-
-std::string length(const Json& value) { return base::formatQuantity(value.get<double>(), dimensions::length); }
-
-std::string frequency(const Json& entry) {
-  return base::formatQuantity(entry["frequency"].get<double>(), dimensions::angularFrequency) + " (" +
-         base::formatQuantity(entry["frequency_hz"].get<double>(), {}) + " Hz)";
 }
 
 /// All settings applied, in any order that the scene allows: more harmonics may need more samples first.
@@ -57,157 +49,30 @@ scene::Scene applySettings(scene::Scene scene, std::vector<std::string> settings
   return scene;
 }
 
-void printProbes(const Json& probes) {
-  for (const Json& probe : probes)
-    std::cout << "  " << probe["name"].get<std::string>() << ": path length " << length(probe["path_length"])
-              << ", maximum displacement " << length(probe["maximum_displacement"]) << "\n";
-}
-
-/// How Newton's method converged: corrections that square from one to the next show that the Jacobian is right.
-void printIterations(const Json& iterations) {
-  std::cout << "  iteration    residual  correction  step\n";
-  for (const Json& record : iterations) {
-    char line[80];
-    std::snprintf(line, sizeof line, "  %9d  %10.2e  %10.2e  %4g\n", record["iteration"].get<int>(),
-                  record["residual"].get<double>(), record["correction"].get<double>(),
-                  record["step_length"].get<double>());
-    std::cout << line;
+/// The scene and those of its studies that are asked for.
+struct Work {
+  explicit Work(const RunOptions& options)
+      : scene(applySettings(scene::Scene::load(options.scene), options.settings)),
+        model(scene::buildModel(scene)),
+        names(options.studies.empty() ? scene::studyNames(scene) : options.studies) {
+    math::setThreadCount(options.threads);
+    if (names.empty()) throw base::InputError(scene.name() + ": /studies", "The scene has no studies to run.");
   }
-}
-
-void printHarmonic(const Json& summary) {
-  std::cout << "  " << summary["newton_iterations"] << " Newton iterations, residual "
-            << base::formatQuantity(summary["residual"].get<double>(), {}) << " of the driving force, last correction "
-            << base::formatQuantity(summary["correction"].get<double>(), {}) << " of the swing\n";
-  std::cout << "  H = " << summary["harmonics"] << ", N = " << summary["samples"] << ", " << summary["unknowns"]
-            << " unknowns\n";
-  if (summary.contains("left_out")) {
-    const auto harmonics = summary["coordinate_harmonics"].get<std::vector<int>>();
-    const auto [fewest, most] = std::minmax_element(harmonics.begin(), harmonics.end());
-    std::cout << "  harmonics per node: " << *fewest << " to " << *most
-              << "; those left out would move a node by about "
-              << base::formatQuantity(summary["left_out"].get<double>(), {}) << " of the longest path\n";
+  void makeStudies() {
+    for (const std::string& name : names) studies.push_back(scene::StudyRegistry::instance().make(scene, model, name));
   }
-  if (summary.contains("iterations")) printIterations(summary["iterations"]);
-  if (summary.contains("probes")) {
-    std::cout << "  at " << frequency(summary) << "\n";
-    printProbes(summary["probes"]);
-  }
-  if (!summary.contains("point_count")) return;
-  std::cout << "  " << summary["point_count"] << " points\n";
-  for (const Json& peak : summary["peaks"]) {
-    std::cout << "  peak at " << frequency(peak);
-    if (peak.contains("probe"))
-      std::cout << ": " << peak["probe"].get<std::string>() << " path length " << length(peak["path_length"])
-                << ", maximum displacement " << length(peak["maximum_displacement"]);
-    std::cout << "\n";
-  }
-  for (const Json& fold : summary["folds"]) std::cout << "  fold at " << frequency(fold) << "\n";
-}
 
-void printModes(const Json& summary) {
-  std::cout << "  mode  frequency [rad/s]        [Hz]  damping ratio  residual\n";
-  int number = 0;
-  for (const Json& mode : summary["modes"]) {
-    char line[80];
-    std::snprintf(line, sizeof line, "  %4d  %17.6g  %10.5g  %13.4g  %8.1e\n", ++number,
-                  mode["frequency"].get<double>(), mode["frequency_hz"].get<double>(),
-                  mode["damping_ratio"].get<double>(), mode["residual"].get<double>());
-    std::cout << line;
-  }
-}
-
-void printTime(const Json& summary) {
-  std::cout << "  " << summary["period_count"] << " periods of " << summary["steps_per_period"] << " steps, "
-            << summary["newton_iterations"] << " Newton iterations, " << summary["factorizations"]
-            << " factorisations\n  last periods differ by e_p = " << length(summary["difference"]) << "\n  at "
-            << frequency(summary) << "\n";
-  printProbes(summary["probes"]);
-}
-
-void printCompared(const char* title, const Json& solutions) {
-  std::cout << title << "  to Newmark  to reference   seconds\n";
-  for (const Json& solution : solutions) {
-    char line[96];
-    std::snprintf(line, sizeof line, "  %9d  %7d  %10.2e  %12.2e  %8.3g\n", solution.value("harmonics", 0),
-                  solution.contains("steps") ? solution["steps"].get<int>() : solution["samples"].get<int>(),
-                  solution.value("relative_difference_to_newmark", NAN),
-                  solution.value("relative_difference_to_reference", NAN), solution["seconds"].get<double>());
-    std::cout << line;
-  }
-}
-
-void printComparison(const Json& summary) {
-  std::cout << "  at " << frequency(summary) << ", differences relative to the swing\n";
-  printCompared("  harmonics  samples", summary["harmonics"]);
-  printCompared("  (Newmark)    steps", summary["steps"]);
-  printCompared("  harmonics   both N", summary["samples"]);
-}
-
-void printCloth(const Json& summary) {
-  const auto number = [](const Json& value) {
-    return value.is_number() ? base::formatQuantity(value.get<double>(), {}) : std::string("none");
-  };
-  if (summary.contains("projection")) {
-    const Json& projection = summary["projection"];
-    std::cout << "  objective " << number(projection["objective"]) << ", bound " << number(projection["bound"])
-              << ", relative gap " << number(projection["relative_gap"]) << ", violation "
-              << number(projection["violation"]) << ", " << projection["iterations"] << " iterations\n";
-    for (const char* key : {"conflicting_triangles", "conflicting_pins"})
-      if (!projection[key].empty())
-        std::cout << "  " << (key + std::string("conflicting_").size())
-                  << " that contradict each other: " << projection[key].dump() << "\n";
-  }
-  if (summary.value("steps", 0) == 0) return;
-  std::cout << "  " << summary["steps"] << " steps, " << summary["newton_iterations"] << " Newton iterations ("
-            << base::formatQuantity(summary["newton_seconds_per_step"].get<double>(), dimensions::time) << " a step), "
-            << summary["projection_iterations"] << " of projections ("
-            << base::formatQuantity(summary["projection_seconds_per_step"].get<double>(), dimensions::time)
-            << " a step)\n  violation " << number(summary["violation"]) << ", relative gap "
-            << number(summary["relative_gap"]) << ", total energy " << number(summary["energy_start"]["total"])
-            << " J after the first step, " << number(summary["energy_end"]["total"]) << " J after the last\n";
-  if (summary.contains("residual"))
-    std::cout << "  unbalanced force " << number(summary["residual"]) << " of the external force\n";
-}
-
-void printSummary(const Json& summary) {
-  std::cout << summary["study"].get<std::string>() << ": " << summary["termination"].get<std::string>() << ", "
-            << base::formatQuantity(summary["seconds"].get<double>(), dimensions::time) << "\n";
-  if (const auto message = summary["message"].get<std::string>(); !message.empty())
-    std::cout << "  " << message << "\n";
-  const std::string kind = summary["kind"];
-  if (kind == "harmonic") printHarmonic(summary);
-  if (kind == "modes") printModes(summary);
-  if (kind == "time") printTime(summary);
-  if (kind == "comparison") printComparison(summary);
-  if (kind == "cloth") printCloth(summary);
-}
-
-void printExpected(const std::vector<scene::ExpectedValue>& values) {
-  if (values.empty()) return;
-  const auto met = std::count_if(values.begin(), values.end(), [](const auto& value) { return value.holds(); });
-  std::cout << "  expected values: " << met << " of " << values.size() << " met\n";
-  for (const scene::ExpectedValue& value : values)
-    if (!value.holds())
-      std::cout << "  " << value.pointer << " is " << base::formatQuantityExactly(value.found, {}) << ", expected "
-                << base::formatQuantityExactly(value.expected, {}) << "\n";
-}
-
-}  // namespace
-
-ExitStatus run(const RunOptions& options) {
-  math::setThreadCount(options.threads);
-  const scene::Scene scene = applySettings(scene::Scene::load(options.scene), options.settings);
-  const auto model = scene::buildModel(scene);
-  const std::vector<std::string> names = options.studies.empty() ? scene::studyNames(scene) : options.studies;
-  if (names.empty()) throw base::InputError(scene.name() + ": /studies", "The scene has no studies to run.");
-
+  scene::Scene scene;
+  std::shared_ptr<const mechanics::Model> model;
+  std::vector<std::string> names;
   std::vector<std::unique_ptr<scene::Study>> studies;
-  for (const std::string& name : names) {
-    studies.push_back(scene::StudyRegistry::instance().make(scene, model, name));
-    scene::ResultFolder writable(std::filesystem::path(options.out) / name);  // refuses before anything is computed
-  }
+};
 
+/// Does something with each study, under a progress display and until Ctrl-C. `act` gets the number of the study and
+/// the display.
+ExitStatus forEachStudy(
+    const Work& work,
+    const std::function<base::TerminationType(std::size_t, base::ExecutionContext&, ProgressDisplay&)>& act) {
   ProgressDisplay display;
   std::string current;
   base::ExecutionContext context(
@@ -217,24 +82,46 @@ ExitStatus run(const RunOptions& options) {
       [&](base::Severity severity, const std::string& message) { display.log(severity, message); });
   const CancelOnInterrupt interrupt(context);
   ExitStatus status = done;
-  for (std::size_t i = 0; i < studies.size() && !context.cancelRequested(); ++i) {
-    current = names[i];
-    const auto count = static_cast<double>(studies.size());
+  for (std::size_t i = 0; i < work.studies.size() && !context.cancelRequested(); ++i) {
+    current = work.names[i];
+    const auto count = static_cast<double>(work.studies.size());
     context.setRange(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-    const auto result = studies[i]->run(context);
-    const std::filesystem::path folder = std::filesystem::path(options.out) / names[i];
+    const base::TerminationType termination = act(i, context, display);
+    if (termination == base::TerminationType::cancelled)
+      status = cancelled;
+    else if (termination != base::TerminationType::converged && status == done)
+      status = notConverged;
+  }
+  return context.cancelRequested() ? cancelled : status;
+}
+
+/// Computes the result of each study, writes it and says what it is.
+ExitStatus writeResults(
+    const Work& work, const RunOptions& options,
+    const std::function<std::shared_ptr<const scene::Result>(const scene::Study&, base::ExecutionContext&)>& compute) {
+  for (const std::string& name : work.names)
+    scene::ResultFolder writable(std::filesystem::path(options.out) / name);  // refuses before anything is computed
+  return forEachStudy(work, [&](std::size_t i, base::ExecutionContext& context, ProgressDisplay& display) {
+    const auto result = compute(*work.studies[i], context);
+    const std::filesystem::path folder = std::filesystem::path(options.out) / work.names[i];
     result->write(folder);
     display.clear();
     const Json summary = result->summary();
     printSummary(summary);
-    if (options.settings.empty()) printExpected(scene::compareWithExpected(scene, names[i], summary));
+    if (options.settings.empty()) printExpected(scene::compareWithExpected(work.scene, work.names[i], summary));
     std::cout << "  written to " << folder.string() << std::endl;
-    if (result->termination == base::TerminationType::cancelled)
-      status = cancelled;
-    else if (result->termination != base::TerminationType::converged && status == done)
-      status = notConverged;
-  }
-  if (!options.plot.empty() && !context.cancelRequested()) {
+    return result->termination;
+  });
+}
+
+}  // namespace
+
+ExitStatus run(const RunOptions& options) {
+  Work work(options);
+  work.makeStudies();
+  const ExitStatus status = writeResults(
+      work, options, [](const scene::Study& study, base::ExecutionContext& context) { return study.run(context); });
+  if (!options.plot.empty() && status != cancelled) {
     PlotOptions plotted;
     plotted.scene = options.scene;
     plotted.result = options.out;
@@ -242,7 +129,42 @@ ExitStatus run(const RunOptions& options) {
     plotted.out = options.plot;
     plot(plotted, "1280x720");
   }
-  return context.cancelRequested() ? cancelled : status;
+  return status;
+}
+
+ExitStatus runShard(const RunOptions& options, const std::string& text) {
+  const base::Shard shard = shardOf(text);
+  Work work(options);
+  work.makeStudies();
+  for (const auto& study : work.studies) sharded(*study);
+  return forEachStudy(work, [&](std::size_t i, base::ExecutionContext& context, ProgressDisplay& display) {
+    const std::filesystem::path file = shardFile(options.out, work.names[i], shard);
+    std::error_code error;
+    std::filesystem::create_directories(file.parent_path(), error);
+    if (error)
+      throw base::InputError(file.parent_path().string(), "The folder cannot be made: " + error.message() + ".");
+    const base::TerminationType termination = sharded(*work.studies[i]).runShard(shard, file, context);
+    display.clear();
+    std::cout << work.names[i] << ": shard " << text << " " << base::toString(termination) << "\n  kept in "
+              << file.string() << std::endl;
+    return termination;
+  });
+}
+
+ExitStatus mergeShards(const RunOptions& options) {
+  Work work(options);
+  if (options.studies.empty()) {
+    std::erase_if(work.names, [&](const std::string& name) { return !hasShards(options.out, name); });
+    if (work.names.empty())
+      throw base::InputError(options.out, "There are no shards of this scene; compute them with `run --shard` first.");
+  }
+  work.makeStudies();
+  std::vector<std::vector<std::filesystem::path>> files;
+  for (const std::string& name : work.names) files.push_back(allShardFiles(options.out, name));
+  std::size_t next = 0;
+  return writeResults(work, options, [&](const scene::Study& study, base::ExecutionContext& context) {
+    return sharded(study).merge(files[next++], context);
+  });
 }
 
 }  // namespace pliant::cli

@@ -56,22 +56,37 @@ bool readLine(const std::string& text, std::string& name, BoundaryState& state) 
 
 }  // namespace
 
-BoundaryFile::BoundaryFile(const std::filesystem::path& file, const std::string& key) {
+bool KnownStates::read(const std::filesystem::path& file, const std::string& key) {
   std::ifstream in(file);
   std::string line;
-  bool same = false;
-  if (in && std::getline(in, line)) {
-    if (line != firstLine)
-      throw base::InputError(file.string(), "this file is there already and holds no states of a boundary");
-    same = std::getline(in, line) && line == key;
-  }
-  while (same && std::getline(in, line)) {
+  if (!in || !std::getline(in, line)) return false;
+  if (line != firstLine)
+    throw base::InputError(file.string(), "this file is there already and holds no states of a boundary");
+  if (!std::getline(in, line) || line != key) return false;
+  while (std::getline(in, line)) {
     std::string name;
     BoundaryState state;
     if (readLine(line, name, state)) states_[name] = state;
   }
-  recalled_ = static_cast<int>(states_.size());
-  in.close();
+  return true;
+}
+
+bool KnownStates::recall(const std::string& name, BoundaryState& state) {
+  const std::lock_guard lock(mutex_);
+  const auto found = states_.find(name);
+  if (found == states_.end()) return false;
+  state = found->second;
+  return true;
+}
+
+void KnownStates::keep(const std::string& name, const BoundaryState& state) {
+  const std::lock_guard lock(mutex_);
+  states_[name] = state;
+}
+
+BoundaryFile::BoundaryFile(const std::filesystem::path& file, const std::string& key) {
+  read(file, key);
+  recalled_ = count();
   // Written anew, so that a line that was cut short does not spoil the next.
   out_.open(file, std::ios::trunc);
   out_ << firstLine << '\n' << key << '\n';
@@ -80,18 +95,10 @@ BoundaryFile::BoundaryFile(const std::filesystem::path& file, const std::string&
   if (!out_) throw base::InputError(file.string(), "the file cannot be written");
 }
 
-bool BoundaryFile::recall(const std::string& name, BoundaryState& state) {
-  const std::lock_guard lock(mutex_);
-  const auto found = states_.find(name);
-  if (found == states_.end()) return false;
-  state = found->second;
-  return true;
-}
-
 void BoundaryFile::keep(const std::string& name, const BoundaryState& state) {
+  KnownStates::keep(name, state);
   const std::string line = lineOf(name, state);
   const std::lock_guard lock(mutex_);
-  states_[name] = state;
   out_ << line << '\n';
   out_.flush();
 }

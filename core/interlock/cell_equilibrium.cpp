@@ -13,6 +13,11 @@ namespace pliant::interlock {
 using base::TerminationType;
 using Eigen::VectorXd;
 
+EquilibriumOptions withLooserGaps(EquilibriumOptions options) {
+  options.finalGap = std::max(options.finalGap, 1e-2);
+  return options;
+}
+
 CellSolver::CellSolver(const UnitCell& cell, const EquilibriumOptions& options)
     : contact_(cell),
       options_(options),

@@ -41,6 +41,9 @@ struct EquilibriumOptions {
   int maximumIterations = 600;  ///< of Newton's method, in all
 };
 
+/// For states on the way to a limit, which need not be exact.
+EquilibriumOptions withLooserGaps(EquilibriumOptions options);
+
 /// How a cell came to rest.
 enum class RestKind {
   locked,     ///< contacts hold it against the load

@@ -18,15 +18,17 @@ Vector3d along(double angle) { return {1, std::cos(2 * angle), std::sin(2 * angl
 
 double strainAlong(const Vector3d& strain, double angle) { return along(angle).dot(strain); }
 
-StrainDrive uniaxialDrive(double angle, bool compress, Lateral lateral) {
+StrainDrive uniaxialDrive(double angle, bool compress, Lateral lateral, double ratio) {
   StrainDrive drive;
   drive.load = (compress ? -1 : 1) * along(angle);
   // The strain of a principal direction alone, 1 in that direction and 0 across.
   const Vector3d principal = 0.5 * along(angle);
+  const Vector3d across(principal[0], -principal[1], -principal[2]);
   if (lateral == Lateral::held) drive.directions = principal;
+  if (lateral == Lateral::biaxial) drive.directions = principal + ratio * across;
   if (lateral == Lateral::principal) {
     drive.directions.resize(3, 2);
-    drive.directions << principal, Vector3d(principal[0], -principal[1], -principal[2]);
+    drive.directions << principal, across;
   }
   return drive;
 }
@@ -40,7 +42,7 @@ StrainDrive rayDrive(const Vector3d& direction) {
 
 DirectionLimit directionLimit(const CellSolver& solver, double angle, bool compress, const LimitOptions& options,
                               const base::ExecutionContext* context) {
-  const StrainDrive drive = uniaxialDrive(angle, compress, options.lateral);
+  const StrainDrive drive = uniaxialDrive(angle, compress, options.lateral, options.ratio);
   const CellState rest = restState(solver.contact().cell());
   DirectionLimit best;
   for (int trial = 0; trial < std::max(1, options.trials); ++trial) {

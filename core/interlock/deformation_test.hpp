@@ -8,19 +8,21 @@ namespace pliant::interlock {
 enum class Lateral {
   free,       ///< stretch and shear as it likes
   principal,  ///< stretch as it likes; the direction stays a principal one (thesis 4.3.3)
-  held        ///< nothing: the strain across stays 0, or where it was
+  held,       ///< nothing: the strain across stays 0, or where it was
+  biaxial     ///< stretch in proportion; the direction stays a principal one
 };
 
 /// Strain of the direction at `angle` [rad] from the first axis, relative: d·F·d - 1.
 double strainAlong(const Eigen::Vector3d& strain, double angle);
 
-/// Pulls on the strain of that direction, or pushes.
-StrainDrive uniaxialDrive(double angle, bool compress, Lateral lateral);
+/// Pulls on the strain of that direction, or pushes. `ratio`: of the strain across to that along, if biaxial.
+StrainDrive uniaxialDrive(double angle, bool compress, Lateral lateral, double ratio = 0);
 /// Along a ray of strain coordinates.
 StrainDrive rayDrive(const Eigen::Vector3d& direction);
 
 struct LimitOptions {
   Lateral lateral = Lateral::free;
+  double ratio = 1;  ///< of the strain across to that along, if biaxial
   /// Structures are often symmetric, and then held near a saddle under compression: elements are moved at random first
   /// by about this times the smallest radius. 0: not at all, which does not keep the symmetry either.
   double perturbation = 0.01;

@@ -20,20 +20,26 @@ constexpr double tryAbove = 0.02, countAbove = 1e-3;
 constexpr double enterAt = 0.8;
 constexpr int mostRounds = 4;
 
-EquilibriumOptions looserThan(EquilibriumOptions options) {
-  options.finalGap = std::max(options.finalGap, 1e-2);
-  return options;
-}
+/// Under which a limit straight from the middle is kept.
+std::string rayName(int ray) { return "ray " + std::to_string(ray); }
 
 class BoundaryComputation {
  public:
   BoundaryComputation(const CellSolver& solver, const BoundaryOptions& options, base::ExecutionContext& context,
                       BoundaryMemory* memory)
       : solver_(solver),
-        looser_(solver.contact().cell(), looserThan(solver.options())),
+        looser_(solver.contact().cell(), withLooserGaps(solver.options())),
         options_(options),
         context_(context),
         memory_(memory) {}
+
+  TerminationType runRays(const base::Shard& shard) {
+    findMiddle();
+    boundary_.mesh = icosphere(options_.subdivisions);
+    boundary_.states.resize(boundary_.mesh.directions.size());
+    addRays(0, shard, 1);
+    return context_.cancelRequested() ? TerminationType::cancelled : TerminationType::converged;
+  }
 
   StrainSpaceBoundary run() {
     findMiddle();
@@ -95,21 +101,28 @@ class BoundaryComputation {
   /// States of the directions that have none yet, then the test of their neighbourhood.
   void addStates() {
     const int first = static_cast<int>(boundary_.states.size());
-    const int count = static_cast<int>(boundary_.mesh.directions.size()) - first;
-    boundary_.states.resize(first + count);
+    boundary_.states.resize(boundary_.mesh.directions.size());
+    addRays(first, {}, 0.6);
+    for (int round = 0; options_.testStarShape && round < mostRounds; ++round)
+      if (!testNeighbours(round)) break;
+    measureErrors();
+  }
+
+  /// The limits straight from the middle, from ray `first` on.
+  void addRays(int first, const base::Shard& shard, double progressAtEnd) {
+    const int count = static_cast<int>(boundary_.states.size()) - first;
     std::atomic<int> done{0};
     math::parallelFor(count, [&](int k) {
       const int i = first + k;
       if (context_.cancelRequested()) return;
-      boundary_.states[i] = recalled("ray " + std::to_string(i), [&] {
-        const Vector3d& direction = boundary_.mesh.directions[i];
-        return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
-      });
-      context_.reportProgress(0.6 * ++done / count);
+      if (shard.takes(i)) {
+        boundary_.states[i] = recalled(rayName(i), [&] {
+          const Vector3d& direction = boundary_.mesh.directions[i];
+          return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
+        });
+      }
+      context_.reportProgress(progressAtEnd * ++done / count);
     });
-    for (int round = 0; options_.testStarShape && round < mostRounds; ++round)
-      if (!testNeighbours(round)) break;
-    measureErrors();
   }
 
   /// Tries each direction with the state of its farthest neighbour. All tries start from the states before, so that
@@ -286,6 +299,20 @@ Vector3d greenStrain(const Vector3d& strain) {
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
                                     base::ExecutionContext& context, BoundaryMemory* memory) {
   return BoundaryComputation(solver, options, context, memory).run();
+}
+
+TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
+                            base::ExecutionContext& context, BoundaryMemory& memory) {
+  return BoundaryComputation(solver, options, context, &memory).runRays(shard);
+}
+
+std::vector<int> missingRays(const BoundaryOptions& options, BoundaryMemory& memory) {
+  std::vector<int> missing;
+  BoundaryState state;
+  const int count = static_cast<int>(icosphere(options.subdivisions).directions.size());
+  for (int ray = 0; ray < count; ++ray)
+    if (!memory.recall(rayName(ray), state)) missing.push_back(ray);
+  return missing;
 }
 
 }  // namespace pliant::interlock

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 
+#include "core/base/shard.hpp"
 #include "core/interlock/deformation_test.hpp"
 #include "core/interlock/sphere_mesh.hpp"
 
@@ -81,5 +82,12 @@ Eigen::Vector3d greenStrain(const Eigen::Vector3d& strain);
 /// termination `cancelled`.
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
                                     base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
+
+/// Only the limits along the rays of one shard, for `memory`; what is left to do takes all of them: computeBoundary
+/// with what all shards have kept.
+base::TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
+                                  base::ExecutionContext& context, BoundaryMemory& memory);
+/// The numbers of rays that `memory` does not know.
+std::vector<int> missingRays(const BoundaryOptions& options, BoundaryMemory& memory);
 
 }  // namespace pliant::interlock

@@ -89,6 +89,32 @@ Json FreeTravelResult::summary() const {
 
 std::vector<std::string> FreeTravelResult::warnings() const { return {compressionWarning()}; }
 
+Json StretchGridResult::summary() const {
+  Json json = materialSummary();
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double remaining = 0;
+  for (const interlock::GridSlice& slice : grid.slices)
+    for (const auto* limit : {&slice.stretched, &slice.compressed}) {
+      const Vector3d green = interlock::greenStrain(limit->equilibrium.state.strain);
+      low = low.cwiseMin(green);
+      high = high.cwiseMax(green);
+      remaining = std::max(remaining, limit->equilibrium.remaining);
+    }
+  json["limits"] = 2 * grid.slices.size();
+  json["missed_slices"] = grid.missedCount();
+  json["green_strain"] = {{"smallest", listOf(low)}, {"largest", listOf(high)}};
+  json["largest_gap_over_radius"] = grid.largestGap() / cell->smallestRadius();
+  json["largest_remaining"] = remaining;
+  json["iterations"] = grid.iterations();
+  json["units"] = {{"missed_slices", "that locked before the principal strain that was asked for"},
+                   {"largest_remaining", "strain that smaller gaps could add, to first order"},
+                   {"seconds", "s"}};
+  addRunInformation(json, *this);
+  return json;
+}
+
+std::vector<std::string> StretchGridResult::warnings() const { return {compressionWarning()}; }
+
 Json StretchBoundaryResult::summary() const {
   Json json = materialSummary();
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/interlock/limit_grid.hpp"
 #include "core/interlock/strain_space_boundary.hpp"
 #include "core/scene/study.hpp"
 
@@ -37,6 +38,17 @@ class FreeTravelResult final : public InterlockResult {
   std::vector<std::string> warnings() const override;
 
   std::vector<interlock::FreeTravel> directions;
+};
+
+/// Limits by slices: "stretch_grid".
+class StretchGridResult final : public InterlockResult {
+ public:
+  Json summary() const override;
+  /// summary.json, limits.csv (a row a slice).
+  void write(const std::filesystem::path& directory) const override;
+  std::vector<std::string> warnings() const override;
+
+  interlock::LimitGrid grid;
 };
 
 /// All limits of in-plane deformation: "stretch_boundary".

@@ -97,6 +97,26 @@ void FreeTravelResult::write(const std::filesystem::path& directory) const {
   folder.commit();
 }
 
+void StretchGridResult::write(const std::filesystem::path& directory) const {
+  ResultFolder folder(directory);
+  CsvWriter csv;
+  for (const char* column : {"direction [rad]", "principal_wanted", "principal", "missed", "across_smallest",
+                             "across_largest", "smallest_remaining", "largest_remaining", "smallest_contacts",
+                             "largest_contacts", "smallest_termination", "largest_termination"})
+    csv.add(column);
+  csv.endRow();
+  for (const interlock::GridSlice& slice : grid.slices) {
+    const interlock::CellEquilibrium &low = slice.compressed.equilibrium, &high = slice.stretched.equilibrium;
+    csv.add(slice.angle).add(slice.wanted).add(slice.principal).add(slice.missed ? 1 : 0);
+    csv.add(slice.compressed.strain).add(slice.stretched.strain).add(low.remaining).add(high.remaining);
+    csv.add(static_cast<long>(low.contacts.size())).add(static_cast<long>(high.contacts.size()));
+    csv.add(base::toString(low.termination)).add(base::toString(high.termination)).endRow();
+  }
+  folder.writeFile("limits.csv", csv.text());
+  folder.writeFile("summary.json", formatJson(summary()));
+  folder.commit();
+}
+
 void StretchBoundaryResult::write(const std::filesystem::path& directory) const {
   ResultFolder folder(directory);
   folder.writeFile("boundary.csv", boundaryTable(boundary));

@@ -80,9 +80,15 @@ ParameterSpec lateralKey() {
       choice(
           "lateral",
           "Across the direction the material is \"free\" to stretch and shear, may stretch while the direction stays "
-          "a \"principal\" one, or is \"held\".",
-          {"free", "principal", "held"}),
+          "a \"principal\" one, is \"held\", or stretches in proportion (\"biaxial\").",
+          {"free", "principal", "held", "biaxial"}),
       "free");
+}
+
+ParameterSpec ratioKey() {
+  return withDefault(
+      within(number("ratio", "", "Of the strain across to that along, of a biaxial test.", dimensions::none), -10, 10),
+      1);
 }
 
 ParameterSpec trialsKey() {
@@ -136,11 +142,17 @@ std::vector<ParameterSpec> interlockStudySpecs() {
   return {
       studyOf("cell_test", "How far a material can be stretched or compressed in one direction (thesis 4.3.2).",
               {withDefault(choice("load", "What is done to it.", {"stretch", "compress"}), "stretch"),
-               angleKey("direction", "From the first axis.", "0 deg"), lateralKey(), trialsKey()}),
+               angleKey("direction", "From the first axis.", "0 deg"), lateralKey(), ratioKey(), trialsKey()}),
       studyOf("free_travel",
               "Stretch and compression limits in many directions, and the free travel between them (thesis 4.4.1).",
               {withDefault(integer("directions", "", "Directions, evenly spread over half a turn.", 1, 3600), 36),
-               lateralKey(), trialsKey()}),
+               lateralKey(), ratioKey(), trialsKey()}),
+      studyOf("stretch_grid",
+              "The same set as of a \"stretch_boundary\", by slices as in the thesis (4.3.3): principal directions, "
+              "principal strains between their limits, and the limits across. It asks for no star shape, and makes no "
+              "closed surface.",
+              {withDefault(integer("directions", "", "Principal directions, over half a turn.", 1, 3600), 36),
+               withDefault(integer("steps", "", "Principal strains of each.", 1, 1000), 20)}),
       studyOf("stretch_boundary",
               "The set of all in-plane deformations that a material can reach, as a closed surface (thesis 4.3.3).",
               {withDefault(integer("subdivisions", "",

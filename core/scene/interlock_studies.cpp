@@ -3,11 +3,13 @@
 #include <numbers>
 #include <optional>
 
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/interlock/boundary_file.hpp"
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/interlock_result.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/sharded_study.hpp"
 
 namespace pliant::scene {
 
@@ -17,6 +19,7 @@ namespace {
 
 interlock::Lateral lateralNamed(const std::string& name) {
   if (name == "principal") return interlock::Lateral::principal;
+  if (name == "biaxial") return interlock::Lateral::biaxial;
   return name == "held" ? interlock::Lateral::held : interlock::Lateral::free;
 }
 
@@ -42,6 +45,7 @@ class InterlockStudy : public Study {
   interlock::LimitOptions limitOptions() const {
     interlock::LimitOptions options;
     options.lateral = lateralNamed(options_["lateral"]);
+    options.ratio = options_["ratio"];
     options.perturbation = options_["perturbation"];
     options.seed = options_["seed"];
     options.trials = options_["trials"];
@@ -113,14 +117,64 @@ class FreeTravelStudy final : public InterlockStudy {
   }
 };
 
-class StretchBoundaryStudy final : public InterlockStudy {
+class StretchGridStudy final : public InterlockStudy {
  public:
   using InterlockStudy::InterlockStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
-    auto result = std::make_shared<StretchBoundaryResult>();
+    auto result = std::make_shared<StretchGridResult>();
     const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    interlock::LimitGridOptions options;
+    options.directions = options_["directions"];
+    options.steps = options_["steps"];
+    options.perturbation = options_["perturbation"];
+    options.seed = options_["seed"];
+    result->grid = interlock::computeLimitGrid(solver, options, context);
+    finish(*result, result->grid.termination, result->grid.message, watch);
+    if (observe) observe(result);
+    return result;
+  }
+};
+
+class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy {
+ public:
+  using InterlockStudy::InterlockStudy;
+
+  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
+    const base::Stopwatch watch;
+    std::optional<interlock::BoundaryFile> memory;
+    if (options_.contains("checkpoint")) memory.emplace(directory_ / options_["checkpoint"].get<std::string>(), key());
+    auto result = resultOf(memory ? &*memory : nullptr, memory ? memory->recalledCount() : 0, watch, context);
+    if (observe) observe(result);
+    return result;
+  }
+
+  TerminationType runShard(const base::Shard& shard, const std::filesystem::path& file,
+                           base::ExecutionContext& context) const override {
+    interlock::BoundaryFile memory(file, key());
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    return interlock::computeRays(solver, boundaryOptions(), shard, context, memory);
+  }
+  const ShardedStudy* sharded() const override { return this; }
+
+  std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
+                                      base::ExecutionContext& context) const override {
+    const base::Stopwatch watch;
+    interlock::KnownStates known;
+    for (const std::filesystem::path& file : files)
+      if (!known.read(file, key()))
+        throw base::InputError(
+            file.string(), "This shard is not of the scene and study as they are now; run it again.");
+    if (const auto missing = interlock::missingRays(boundaryOptions(), known); !missing.empty())
+      throw base::InputError(files[static_cast<std::size_t>(missing.front()) % files.size()].string(),
+                             "This shard is not finished: " + std::to_string(missing.size()) +
+                                 " limits are missing in all shards together. Run it again; it goes on where it was.");
+    return resultOf(&known, known.count(), watch, context);
+  }
+
+ private:
+  interlock::BoundaryOptions boundaryOptions() const {
     interlock::BoundaryOptions options;
     options.subdivisions = options_["subdivisions"];
     options.perturbation = options_["perturbation"];
@@ -128,14 +182,20 @@ class StretchBoundaryStudy final : public InterlockStudy {
     options.tolerance = options_["tolerance"];
     options.maximumStates = options_["maximum_states"];
     options.testStarShape = options_["test_star_shape"];
-    std::optional<interlock::BoundaryFile> memory;
-    if (options_.contains("checkpoint"))
-      memory.emplace(directory_ / options_["checkpoint"].get<std::string>(),
-                     provenance_.version + " " + provenance_.sceneHash + " " + options_.dump());
-    if (memory) result->recalled = memory->recalledCount();
-    result->boundary = interlock::computeBoundary(solver, options, context, memory ? &*memory : nullptr);
+    return options;
+  }
+
+  /// What kept limits hold for.
+  std::string key() const { return provenance_.version + " " + provenance_.sceneHash + " " + options_.dump(); }
+
+  std::shared_ptr<const StretchBoundaryResult> resultOf(interlock::BoundaryMemory* memory, int recalled,
+                                                        const base::Stopwatch& watch,
+                                                        base::ExecutionContext& context) const {
+    auto result = std::make_shared<StretchBoundaryResult>();
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    result->recalled = recalled;
+    result->boundary = interlock::computeBoundary(solver, boundaryOptions(), context, memory);
     finish(*result, result->boundary.termination, result->boundary.message, watch);
-    if (observe) observe(result);
     return result;
   }
 };
@@ -155,6 +215,11 @@ std::unique_ptr<Study> makeFreeTravelStudy(const Scene& scene, std::shared_ptr<c
 std::unique_ptr<Study> makeStretchBoundaryStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
                                                 const Json& options) {
   return std::make_unique<StretchBoundaryStudy>(scene, std::move(model), options);
+}
+
+std::unique_ptr<Study> makeStretchGridStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                            const Json& options) {
+  return std::make_unique<StretchGridStudy>(scene, std::move(model), options);
 }
 
 }  // namespace pliant::scene

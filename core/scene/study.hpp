@@ -115,6 +115,8 @@ class HarmonicResult final : public Result {
 /// Called from the working thread with a snapshot of what there is so far, at most about 20 times a second.
 using ResultObserver = std::function<void(std::shared_ptr<const Result>)>;
 
+class ShardedStudy;
+
 /// One entry of the scene's "studies", chosen by its "type".
 class Study {
  public:
@@ -125,6 +127,8 @@ class Study {
   /// only bad input throws (base::InputError).
   virtual std::shared_ptr<const Result> run(base::ExecutionContext& context,
                                             const ResultObserver& observe = {}) const = 0;
+  /// The same study, if several processes can share its work; else null.
+  virtual const ShardedStudy* sharded() const { return nullptr; }
 };
 
 /// Makes a study from its normalised JSON object, on a model already built.
@@ -133,7 +137,7 @@ using StudyFactory =
 
 /// Kinds of studies by "type": "periodic_motion", "frequency_response", "backbone", "linear_modes", "linear_response",
 /// "time_integration", "comparison", "cloth_motion", "cloth_drape", "projection", "cell_test", "free_travel",
-/// "stretch_boundary".
+/// "stretch_grid", "stretch_boundary".
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();

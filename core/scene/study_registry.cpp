@@ -4,7 +4,7 @@
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
-#include "core/scene/study.hpp"
+#include "core/scene/sharded_study.hpp"
 #include "core/scene/study_specs.hpp"
 #include "core/scene/time_studies.hpp"
 
@@ -13,19 +13,32 @@ namespace pliant::scene {
 namespace {
 
 /// A study that logs the warnings of what it returns, whatever its type.
-class WarningStudy final : public Study {
+class WarningStudy final : public Study, public ShardedStudy {
  public:
   explicit WarningStudy(std::unique_ptr<Study> study) : study_(std::move(study)) {}
 
   std::string name() const override { return study_->name(); }
   std::string type() const override { return study_->type(); }
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    auto result = study_->run(context, observe);
+    return logged(study_->run(context, observe), context);
+  }
+
+  const ShardedStudy* sharded() const override { return study_->sharded() ? this : nullptr; }
+  base::TerminationType runShard(const base::Shard& shard, const std::filesystem::path& file,
+                                 base::ExecutionContext& context) const override {
+    return study_->sharded()->runShard(shard, file, context);
+  }
+  std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
+                                      base::ExecutionContext& context) const override {
+    return logged(study_->sharded()->merge(files, context), context);
+  }
+
+ private:
+  static std::shared_ptr<const Result> logged(std::shared_ptr<const Result> result, base::ExecutionContext& context) {
     for (const std::string& warning : result->warnings()) context.log(base::Severity::warning, warning);
     return result;
   }
 
- private:
   std::unique_ptr<Study> study_;
 };
 
@@ -44,6 +57,7 @@ StudyRegistry::StudyRegistry()
                  {"projection", makeProjectionStudy},
                  {"cell_test", makeCellTestStudy},
                  {"free_travel", makeFreeTravelStudy},
+                 {"stretch_grid", makeStretchGridStudy},
                  {"stretch_boundary", makeStretchBoundaryStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
