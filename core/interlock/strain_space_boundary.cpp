@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/interlock/cell_symmetry.hpp"
 #include "core/math/parallel.hpp"
 
 namespace pliant::interlock {
@@ -19,9 +20,20 @@ constexpr double tryAbove = 0.02, countAbove = 1e-3;
 /// Where on its ray a neighbour's elements are brought before they are pulled, relative to the limit.
 constexpr double enterAt = 0.8;
 constexpr int mostRounds = 4;
+/// Rays that symmetries would make and that are computed to check them, and how far they may be off, relative to the
+/// distance.
+constexpr int checkedRays = 12;
+constexpr double symmetricBelow = 1e-3;
+
+std::vector<CellSymmetry> symmetriesFor(const UnitCell& cell, const BoundaryOptions& options) {
+  auto symmetries = symmetriesOf(cell);
+  if (!options.useSymmetries) symmetries.resize(1);
+  return symmetries;
+}
 
 /// Under which a limit straight from the middle is kept.
 std::string rayName(int ray) { return "ray " + std::to_string(ray); }
+std::string checkName(int ray) { return "check " + std::to_string(ray); }
 
 class BoundaryComputation {
  public:
@@ -31,19 +43,35 @@ class BoundaryComputation {
         looser_(solver.contact().cell(), withLooserGaps(solver.options())),
         options_(options),
         context_(context),
-        memory_(memory) {}
+        memory_(memory),
+        symmetries_(symmetriesFor(solver.contact().cell(), options)) {}
 
   TerminationType runRays(const base::Shard& shard) {
     findMiddle();
-    boundary_.mesh = icosphere(options_.subdivisions);
+    startMesh();
+    checkSymmetries();
     boundary_.states.resize(boundary_.mesh.directions.size());
     addRays(0, shard, 1);
     return context_.cancelRequested() ? TerminationType::cancelled : TerminationType::converged;
   }
 
+  std::vector<int> missingRays() {
+    startMesh();
+    BoundaryState state;
+    for (const int ray : raysToCheck())
+      for (const std::string& name : {checkName(ray), rayName(orbits_.representative[ray])})
+        if (!memory_->recall(name, state)) return {orbits_.representative[ray]};
+    checkSymmetries();
+    std::vector<int> missing;
+    for (int ray = 0; ray < static_cast<int>(members_.size()); ++ray)
+      if (isComputed(ray) && !memory_->recall(rayName(ray), state)) missing.push_back(ray);
+    return missing;
+  }
+
   StrainSpaceBoundary run() {
     findMiddle();
-    boundary_.mesh = icosphere(options_.subdivisions);
+    startMesh();
+    checkSymmetries();
     addStates();
     while (!context_.cancelRequested() && options_.tolerance > 0) {
       std::vector<std::array<int, 2>> edges;
@@ -60,11 +88,15 @@ class BoundaryComputation {
   }
 
  private:
-  /// The middle between the limits along each axis in turn.
+  /// The middle between the limits along each axis in turn. By symmetry it is 0 along the others.
   void findMiddle() {
     CellState state = solver_.perturbed(restState(solver_.contact().cell()), options_.perturbation, options_.seed);
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d unit = Vector3d::Unit(axis);
+      if (std::any_of(symmetries_.begin(), symmetries_.end(), [&](const CellSymmetry& symmetry) {
+            return !(symmetry.strainMap() * unit).isApprox(unit, 1e-9);
+          }))
+        continue;
       const CellEquilibrium up = solver_.solve(state, rayDrive(unit), &context_);
       const CellEquilibrium down = solver_.solve(state, rayDrive(-unit), &context_);
       const double shift = 0.5 * (up.state.strain[axis] + down.state.strain[axis]) - state.strain[axis];
@@ -98,14 +130,74 @@ class BoundaryComputation {
     return state;
   }
 
+  void startMesh() {
+    boundary_.mesh = symmetricIcosphere(options_.subdivisions, symmetries_);
+    findOrbits();
+  }
+
+  void findOrbits() {
+    orbits_ = orbitsOf(boundary_.mesh, symmetries_);
+    members_.assign(boundary_.mesh.directions.size(), {});
+    for (std::size_t i = 0; i < members_.size(); ++i)
+      members_[orbits_.representative[i]].push_back(static_cast<int>(i));
+  }
+
+  /// Symmetries make all others.
+  bool isComputed(int direction) const { return !symmetric_ || orbits_.representative[direction] == direction; }
+
+  /// The state of one direction as that of its representative, or the other way round.
+  BoundaryState moved(BoundaryState state, const CellSymmetry& symmetry) const {
+    if (!state.cell.rotations.empty()) state.cell = symmetry.mapped(solver_.contact().cell(), state.cell);
+    return state;
+  }
+  const CellSymmetry& inverse(const CellSymmetry& symmetry) const {
+    return *std::find_if(symmetries_.begin(), symmetries_.end(),
+                         [&](const CellSymmetry& other) { return (other.linear * symmetry.linear).isIdentity(1e-6); });
+  }
+
+  /// The state of a direction and of all that symmetries make from it.
+  void put(int direction, const BoundaryState& state) {
+    boundary_.states[direction] = state;
+    if (!symmetric_) return;
+    for (const int i : members_[direction])
+      if (i != direction) boundary_.states[i] = moved(state, symmetries_[orbits_.symmetry[i]]);
+  }
+
+  /// Where symmetric directions have found different ways to fold, all of them get the farthest.
+  void shareFarthest() {
+    if (symmetric_) return;
+    for (const std::vector<int>& members : members_) {
+      const auto nearer = [&](int i, int j) { return boundary_.states[i].distance < boundary_.states[j].distance; };
+      if (members.size() < 2) continue;
+      const int farthest = *std::max_element(members.begin(), members.end(), nearer);
+      const BoundaryState best = boundary_.states[farthest];
+      if (best.termination != TerminationType::converged) continue;
+      const BoundaryState original = moved(best, inverse(symmetries_[orbits_.symmetry[farthest]]));
+      for (const int i : members) {
+        if (boundary_.states[i].distance * (1 + countAbove) >= best.distance) continue;
+        boundary_.states[i] = moved(original, symmetries_[orbits_.symmetry[i]]);
+        boundary_.states[i].raised = true;
+      }
+    }
+  }
+
   /// States of the directions that have none yet, then the test of their neighbourhood.
   void addStates() {
     const int first = static_cast<int>(boundary_.states.size());
     boundary_.states.resize(boundary_.mesh.directions.size());
+    findOrbits();
     addRays(first, {}, 0.6);
-    for (int round = 0; options_.testStarShape && round < mostRounds; ++round)
+    shareFarthest();
+    for (int round = 0; options_.testStarShape && round < mostRounds; ++round) {
       if (!testNeighbours(round)) break;
+      shareFarthest();
+    }
     measureErrors();
+  }
+
+  BoundaryState straight(int ray) const {
+    const Vector3d& direction = boundary_.mesh.directions[ray];
+    return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
   }
 
   /// The limits straight from the middle, from ray `first` on.
@@ -115,12 +207,7 @@ class BoundaryComputation {
     math::parallelFor(count, [&](int k) {
       const int i = first + k;
       if (context_.cancelRequested()) return;
-      if (shard.takes(i)) {
-        boundary_.states[i] = recalled(rayName(i), [&] {
-          const Vector3d& direction = boundary_.mesh.directions[i];
-          return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
-        });
-      }
+      if (isComputed(i) && shard.takes(i)) put(i, recalled(rayName(i), [&] { return straight(i); }));
       context_.reportProgress(progressAtEnd * ++done / count);
     });
   }
@@ -139,12 +226,14 @@ class BoundaryComputation {
     std::atomic<bool> changed{false};
     math::parallelFor(static_cast<int>(before.size()), [&](int i) {
       const int j = farthest[i];
-      if (context_.cancelRequested() || before[j].distance <= before[i].distance * (1 + tryAbove)) return;
+      if (context_.cancelRequested() || !isComputed(i) ||
+          before[j].distance <= before[i].distance * (1 + tryAbove))
+        return;
       if (before[j].distance == tried_[i] || foldsAlike(before[i].cell, before[j].cell)) return;
       tried_[i] = before[j].distance;
       const std::string name = "test " + std::to_string(before.size()) + " " + std::to_string(round) + " ";
-      boundary_.states[i] = recalled(
-          name + std::to_string(i), [&] { return tested(before[i], before[j], boundary_.mesh.directions[i]); });
+      put(i, recalled(
+                 name + std::to_string(i), [&] { return tested(before[i], before[j], boundary_.mesh.directions[i]); }));
       if (boundary_.states[i].distance != before[i].distance) changed = true;
     });
     return changed;
@@ -191,6 +280,40 @@ class BoundaryComputation {
     return result.distance > own.distance ? result : own;
   }
 
+  std::vector<int> raysToCheck() const {
+    std::vector<int> made, some;
+    for (int i = 0; i < static_cast<int>(members_.size()); ++i)
+      if (orbits_.representative[i] != i) made.push_back(i);
+    const std::size_t count = std::min<std::size_t>(checkedRays, made.size());
+    for (std::size_t k = 0; k < count; ++k) some.push_back(made[made.size() * k / count]);
+    return some;
+  }
+
+  /// Compares some of the rays that symmetries make with those that they are made of. Where these find different ways
+  /// to fold, all rays are computed.
+  void checkSymmetries() {
+    const std::vector<int> rays = raysToCheck();
+    std::vector<double> differences(rays.size());
+    math::parallelFor(static_cast<int>(rays.size()), [&](int k) {
+      if (context_.cancelRequested()) return;
+      const int original = orbits_.representative[rays[k]];
+      const BoundaryState checked = recalled(checkName(rays[k]), [&] { return straight(rays[k]); });
+      const double distance = recalled(rayName(original), [&] { return straight(original); }).distance;
+      differences[k] = std::abs(checked.distance - distance) / std::max(checked.distance, distance);
+    });
+    boundary_.checkedRays = static_cast<int>(rays.size());
+    for (const double difference : differences)
+      boundary_.symmetryDifference = std::max(boundary_.symmetryDifference, difference);
+    symmetric_ = boundary_.symmetryDifference < symmetricBelow;
+    std::vector<Eigen::Matrix3d> maps;
+    for (const CellSymmetry& symmetry : symmetries_) {
+      const Eigen::Matrix3d map = symmetry.strainMap();
+      if (std::none_of(maps.begin(), maps.end(), [&](const auto& other) { return map.isApprox(other, 1e-9); }))
+        maps.push_back(map);
+    }
+    boundary_.symmetries = static_cast<int>(maps.size());
+  }
+
   /// How far each direction that cuts an edge is off that edge.
   void measureErrors() {
     errors_.assign(boundary_.states.size(), 0);
@@ -210,6 +333,7 @@ class BoundaryComputation {
 
   void finish() {
     boundary_.termination = TerminationType::converged;
+    boundary_.computedRays = symmetric_ ? orbits_.count : static_cast<int>(members_.size());
     int failed = 0, unlimited = 0;
     for (const BoundaryState& state : boundary_.states) {
       failed += state.termination != TerminationType::converged;
@@ -247,6 +371,10 @@ class BoundaryComputation {
   const BoundaryOptions& options_;
   base::ExecutionContext& context_;
   BoundaryMemory* memory_;
+  const std::vector<CellSymmetry> symmetries_;  ///< the identity is the first
+  DirectionOrbits orbits_;
+  std::vector<std::vector<int>> members_;  ///< of the orbit of each representative
+  bool symmetric_ = true;                  ///< whether limits are as symmetric as the cell
   StrainSpaceBoundary boundary_;
   std::vector<double> errors_;   ///< see measureErrors
   std::vector<int> generation_;  ///< of directions: how often the icosahedron was cut up to it
@@ -306,13 +434,9 @@ TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& opt
   return BoundaryComputation(solver, options, context, &memory).runRays(shard);
 }
 
-std::vector<int> missingRays(const BoundaryOptions& options, BoundaryMemory& memory) {
-  std::vector<int> missing;
-  BoundaryState state;
-  const int count = static_cast<int>(icosphere(options.subdivisions).directions.size());
-  for (int ray = 0; ray < count; ++ray)
-    if (!memory.recall(rayName(ray), state)) missing.push_back(ray);
-  return missing;
+std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory) {
+  base::ExecutionContext context;
+  return BoundaryComputation(solver, options, context, &memory).missingRays();
 }
 
 }  // namespace pliant::interlock

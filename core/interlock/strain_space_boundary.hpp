@@ -19,6 +19,9 @@ struct BoundaryOptions {
   double tolerance = 0;
   int maximumStates = 20000;
   bool testStarShape = true;
+  /// Computes one ray of those that symmetries of the cell make the same, if checks of some of the others agree. If
+  /// not, since they fold in different ways, all are computed, and symmetric ones get the farthest of theirs.
+  bool useSymmetries = true;
 };
 
 /// The limit along one ray.
@@ -31,7 +34,7 @@ struct BoundaryState {
   RestKind kind = RestKind::locked;
   base::TerminationType termination = base::TerminationType::cancelled;
   /// A neighbour's way to fold, brought onto this ray, led farther than the straight way from the middle, and back to
-  /// the middle as well.
+  /// the middle as well; or that of a symmetric direction did.
   bool raised = false;
   /// A neighbour's way to fold led farther, but not back to the middle along the ray: the set is not star-shaped there,
   /// and this surface bounds only the part that the middle sees.
@@ -63,6 +66,10 @@ struct StrainSpaceBoundary {
   /// How far edges are estimated to be off the boundary, relative to the mean distance: half of how far the newer of
   /// their ends was off the edge that it cut.
   double largestError = 0, meanError = 0;
+  int symmetries = 1;             ///< that strains can tell apart
+  int computedRays = 0;           ///< of which symmetries make all others
+  int checkedRays = 0;            ///< of the others, computed all the same
+  double symmetryDifference = 0;  ///< the largest that was found there, relative to the distance
 
   Eigen::Vector3d strainAt(int direction) const {
     return middle + states[direction].distance * mesh.directions[direction];
@@ -87,7 +94,7 @@ StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOpti
 /// with what all shards have kept.
 base::TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
                                   base::ExecutionContext& context, BoundaryMemory& memory);
-/// The numbers of rays that `memory` does not know.
-std::vector<int> missingRays(const BoundaryOptions& options, BoundaryMemory& memory);
+/// The numbers of rays that `memory` does not know and symmetries do not make.
+std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory);
 
 }  // namespace pliant::interlock

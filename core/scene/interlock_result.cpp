@@ -140,12 +140,16 @@ Json StretchBoundaryResult::summary() const {
   json["raised_by_neighbours"] = boundary.count(&interlock::BoundaryState::raised);
   json["not_star_shaped"] = boundary.count(&interlock::BoundaryState::seesBeyond);
   json["star_shape_tested"] = provenance.options.value("test_star_shape", true);
+  json["symmetries"] = boundary.symmetries;
+  json["computed_limits"] = boundary.computedRays;
+  json["symmetry_check"] = {{"limits", boundary.checkedRays}, {"largest_difference", boundary.symmetryDifference}};
   json["iterations"] = iterations;
   json["recalled"] = recalled;
   json["units"] = {{"middle", "strain coordinates: mean, deviator, shear of the stretch"},
                    {"mean_distance", "strain"},
                    {"estimated_error", "of the surface between the rays, over the mean distance"},
                    {"largest_remaining", "strain that smaller gaps could add, to first order"},
+                   {"largest_difference", "of limits that symmetries make the same, over their distance"},
                    {"seconds", "s"}};
   addRunInformation(json, *this);
   return json;
@@ -156,6 +160,10 @@ std::vector<std::string> StretchBoundaryResult::warnings() const {
   if (const int count = boundary.count(&interlock::BoundaryState::seesBeyond); count > 0)
     sentences.push_back("The set is not star-shaped in " + std::to_string(count) +
                         " directions: this surface bounds the part that can be reached straight from its middle.");
+  if (boundary.symmetryDifference > 1e-3)
+    sentences.push_back("Symmetric directions fold in different ways, and then lock up to " +
+                        std::to_string(std::lround(100 * boundary.symmetryDifference)) +
+                        " per cent apart; each has the farthest that was found.");
   sentences.emplace_back(
       "Limits under compression hold for this supercell alone: cells that may fold differently from their neighbours "
       "can usually be compressed further.");

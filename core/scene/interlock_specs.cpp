@@ -153,24 +153,29 @@ std::vector<ParameterSpec> interlockStudySpecs() {
               "closed surface.",
               {withDefault(integer("directions", "", "Principal directions, over half a turn.", 1, 3600), 36),
                withDefault(integer("steps", "", "Principal strains of each.", 1, 1000), 20)}),
-      studyOf("stretch_boundary",
-              "The set of all in-plane deformations that a material can reach, as a closed surface (thesis 4.3.3).",
-              {withDefault(integer("subdivisions", "",
-                                   "Of the icosahedron whose corners give the rays: 0 to 5 make 12, 42, 162, 642, "
-                                   "2562 or 10242 of them.",
-                                   0, 5),
-                           3),
-               withDefault(within(number("tolerance", "",
-                                         "Edges are cut where the surface is estimated to be farther off than this, "
-                                         "over the mean distance from its middle; 0: none.",
-                                         dimensions::none),
-                                  0, 1),
-                           0),
-               withDefault(integer("maximum_states", "", "Limits that are computed at most.", 12, 1'000'000), 20'000),
-               withDefault(boolean("test_star_shape",
-                                   "Whether each limit is tried with its farthest neighbour's way to fold as well."),
-                           true),
-               optional(checkpoint)})};
+      studyOf(
+          "stretch_boundary",
+          "The set of all in-plane deformations that a material can reach, as a closed surface (thesis 4.3.3).",
+          {withDefault(integer("subdivisions", "",
+                               "Of the icosahedron whose corners give the rays: 0 to 5 make 12, 42, 162, 642, "
+                               "2562 or 10242 of them.",
+                               0, 5),
+                       3),
+           withDefault(within(number("tolerance", "",
+                                     "Edges are cut where the surface is estimated to be farther off than this, "
+                                     "over the mean distance from its middle; 0: none.",
+                                     dimensions::none),
+                              0, 1),
+                       0),
+           withDefault(integer("maximum_states", "", "Limits that are computed at most.", 12, 1'000'000), 20'000),
+           withDefault(boolean("test_star_shape",
+                               "Whether each limit is tried with its farthest neighbour's way to fold as well."),
+                       true),
+           withDefault(boolean("use_symmetries",
+                               "Whether limits that symmetries of the cell make the same are computed once; some are "
+                               "computed all the same, to check it."),
+                       true),
+           optional(checkpoint)})};
 }
 
 }  // namespace pliant::scene

@@ -166,7 +166,8 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy {
       if (!known.read(file, key()))
         throw base::InputError(
             file.string(), "This shard is not of the scene and study as they are now; run it again.");
-    if (const auto missing = interlock::missingRays(boundaryOptions(), known); !missing.empty())
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    if (const auto missing = interlock::missingRays(solver, boundaryOptions(), known); !missing.empty())
       throw base::InputError(files[static_cast<std::size_t>(missing.front()) % files.size()].string(),
                              "This shard is not finished: " + std::to_string(missing.size()) +
                                  " limits are missing in all shards together. Run it again; it goes on where it was.");
@@ -182,6 +183,7 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy {
     options.tolerance = options_["tolerance"];
     options.maximumStates = options_["maximum_states"];
     options.testStarShape = options_["test_star_shape"];
+    options.useSymmetries = options_["use_symmetries"];
     return options;
   }
 
