@@ -161,7 +161,7 @@ void EditableMesh::collapseShortEdges(const BodyDistance& body, double length) {
 
 void EditableMesh::flipEdges() {
   for (const Edge& edge : edges()) {
-    const auto [a, b] = edge;
+    const int a = edge[0], b = edge[1];
     const auto [first, second] = trianglesAt(edge);
     if (first < 0) continue;
     const int c = oppositeCorner(first, edge), d = oppositeCorner(second, edge);

@@ -78,7 +78,8 @@ geometry::BodyMesh ElementBody::mesh(double tolerance) const {
       box.extend(node.ball.centre - extent).extend(node.ball.centre + extent);
     }
   try {
-    geometry::BodyMesh result = geometry::meshBody([this](const Vector3d& place) { return at(place); }, box, cell, tolerance);
+    geometry::BodyMesh result =
+        geometry::meshBody([this](const Vector3d& place) { return at(place); }, box, cell, tolerance);
     if (result.bodies > 1)
       throw base::InputError(
           "", "it falls apart into " + std::to_string(result.bodies) + " bodies, since its pieces do not overlap");

@@ -15,9 +15,7 @@ using interlock::ClosedCurve;
 
 namespace {
 
-Vector3d tripleFrom(const Json& list) {
-  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
-}
+Vector3d tripleFrom(const Json& list) { return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()}; }
 
 /// Not zero.
 Vector3d axisFrom(const Json& list, const std::string& pointer) {
