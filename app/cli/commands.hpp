@@ -49,6 +49,14 @@ struct MotionOptions {
 ExitStatus render(const MotionOptions& options, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
 
+/// A piece of an interlocking material for a printer; texts that are empty are not given.
+struct PatchSettings {
+  std::string cell, outline, tolerance, clearance;
+};
+/// Whether the export of a scene is a patch.
+bool isPatch(const MotionOptions& options);
+ExitStatus exportPatch(const MotionOptions& options, const PatchSettings& settings);
+
 /// How a whole motion becomes a video or numbered pictures.
 struct FilmSettings {
   std::string size = "1280x720";

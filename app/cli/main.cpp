@@ -99,8 +99,10 @@ int runProgram(int argc, char** argv) {
   verb->callback([&] { status = drapes(drapesOptions, size); });
 
   FilmSettings film;
-  verb = program.add_subcommand(
-      "export", "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF, or the whole motion as a video or pictures");
+  verb = program.add_subcommand("export",
+                                "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF (of an interlocking material, a "
+                                "patch for a printer), or the "
+                                "whole motion as a video or pictures");
   addMotion(verb, motion);
   verb->add_option(
           "--out", motion.out, "Mesh file, video (.ogv) or numbered pictures (.png); its ending chooses the format")
@@ -115,7 +117,20 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--periods", film.periods, "Periods of a periodic motion")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  verb->callback([&] { status = isFilm(motion.out) ? exportFilm(motion, film) : exportMesh(motion); });
+  PatchSettings patch;
+  verb->add_option("--cell", patch.cell, "Interlocking material, where the scene has several");
+  verb->add_option(
+      "--patch", patch.outline,
+      "Piece of an interlocking material: 10x8 cells, a rectangle \"60 mm x 40 mm\", a circle \"50 mm\", or "
+      "a polygon FILE.csv (3x3)");
+  verb->add_option("--tolerance", patch.tolerance, "Of its chords (0.02 mm)");
+  verb->add_option("--clearance", patch.clearance, "Between its elements at least (0)");
+  verb->callback([&] {
+    if (isFilm(motion.out))
+      status = exportFilm(motion, film);
+    else
+      status = isPatch(motion) ? exportPatch(motion, patch) : exportMesh(motion);
+  });
 
   bool tables = false;
   verb = program.add_subcommand("schema", "Print the JSON Schema of scene files");

@@ -1,5 +1,7 @@
 #include "core/interlock/dilated_piece.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -53,6 +55,11 @@ void checkSimplices(const ElementShape& shape, std::size_t piece, const SimplexS
     check(std::array{a, b, c});
     for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
       ++sides[{std::min(from, to), std::max(from, to)}];
+    const Eigen::Vector3d first = set.corners.col(b) - set.corners.col(a),
+                          second = set.corners.col(c) - set.corners.col(a);
+    const double longest = std::max({first.squaredNorm(), second.squaredNorm(), (first - second).squaredNorm()});
+    if (!(first.cross(second).norm() > 2 * geometry::smallestRelativeArea * longest))
+      failPiece(shape, piece, "has a triangle of no area");
   }
   if (!set.closed) return;
   for (const auto& [node, count] : ends)

@@ -46,8 +46,8 @@ struct ElementShape {
 };
 
 /// Throws base::InputError (location empty) with a sentence that names shape and piece: no pieces, a radius not above
-/// 0, a coordinate not finite, a curve or chain of no length, corners out of range, or an open piece that is declared
-/// closed.
+/// 0, a coordinate not finite, a curve, segment or triangle of no size, corners out of range, or an open piece that is
+/// declared closed.
 void checkShape(const ElementShape& shape);
 
 }  // namespace pliant::interlock

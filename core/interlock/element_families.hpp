@@ -13,6 +13,7 @@ struct FourInOne {
   double ring = 5e-3, wire = 0.8e-3;
   double width = 12.2e-3, height = 7.5e-3;  ///< of the rectangular cell
   double tilt = 0.4886921905584123;
+  double aspect = 1;  ///< of the wire's cross-section, see ellipticRing
 };
 UnitCell fourInOne(const FourInOne& parameters = {});
 
@@ -21,7 +22,8 @@ struct Rosette {
   double ring, wire;
   double distance;  ///< of the rings' centres from the element's
   double lean;
-  double spacing;  ///< of neighbouring elements
+  double spacing;     ///< of neighbouring elements
+  double aspect = 1;  ///< of the wires' cross-sections, see ellipticRing
 };
 /// Three rings, hexagonal lattice, six neighbours.
 inline constexpr Rosette threefoldDefault{4.8e-3, 1e-3, 5.3e-3, 0.8726646259971648, 14.5e-3};
@@ -54,6 +56,7 @@ UnitCell scaleMail(const ScaleMail& parameters = {});
 struct RingNet {
   double ring = 4e-3, wire = 0.6e-3;
   double spacing = 12e-3;
+  double aspect = 1;  ///< of the wire's cross-section, see ellipticRing
 };
 UnitCell ringNet(const RingNet& parameters = {});
 

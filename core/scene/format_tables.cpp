@@ -93,6 +93,14 @@ void addInner(const ParameterSpec& spec, std::string& out) {
                !isMotion(field)) {
       out += "\nEach of " + code(field.key) + ":\n";
       addTable(field.items.front(), out);
+      addInner(field.items.front(), out);
+    } else if (field.kind == ValueKind::list && field.items.front().kind == ValueKind::variant) {
+      for (const ParameterSpec& item : field.items.front().items) {
+        out +=
+            "\nOf " + code(field.key) + ", " + code("\"type\": \"" + item.key + "\"") + ": " + item.description + "\n";
+        addTable(item, out);
+        addInner(item, out);
+      }
     }
   }
 }

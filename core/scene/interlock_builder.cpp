@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/interlock/cell_surface.hpp"
 #include "core/interlock/element_families.hpp"
+#include "core/scene/composed_cell.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 
@@ -11,14 +12,16 @@ namespace pliant::scene {
 namespace {
 
 interlock::Rosette rosetteFrom(const Json& entry) {
-  return {entry["ring_radius"], entry["wire_radius"], entry["distance"], entry["lean"], entry["spacing"]};
+  return {
+      entry["ring_radius"], entry["wire_radius"], entry["distance"], entry["lean"], entry["spacing"], entry["aspect"]};
 }
 
-interlock::UnitCell cellFrom(const Json& entry) {
+interlock::UnitCell cellFrom(const Json& entry, const std::string& pointer) {
   const std::string type = entry["type"];
+  if (type == "composed") return composedCell(entry, pointer);
   if (type == "four_in_one")
     return interlock::fourInOne(
-        {entry["ring_radius"], entry["wire_radius"], entry["width"], entry["height"], entry["tilt"]});
+        {entry["ring_radius"], entry["wire_radius"], entry["width"], entry["height"], entry["tilt"], entry["aspect"]});
   if (type == "threefold") return interlock::threefold(rosetteFrom(entry));
   if (type == "square_rosette") return interlock::squareRosette(rosetteFrom(entry));
   if (type == "torus_knot")
@@ -27,13 +30,14 @@ interlock::UnitCell cellFrom(const Json& entry) {
   if (type == "scale_mail")
     return interlock::scaleMail({rosetteFrom(entry), entry["plate_height"], entry["plate_inradius"],
                                  entry["plate_radius"], entry["hub_radius"]});
-  return interlock::ringNet({entry["ring_radius"], entry["wire_radius"], entry["spacing"]});
+  return interlock::ringNet({entry["ring_radius"], entry["wire_radius"], entry["spacing"], entry["aspect"]});
 }
 
 interlock::UnitCell cellAt(const Json& cells, std::size_t index) {
   interlock::UnitCell cell;
-  locate(childPointer("/interlocking_cells", index), [&] {
-    cell = cellFrom(cells[index]);
+  const std::string pointer = childPointer("/interlocking_cells", index);
+  locate(pointer, [&] {
+    cell = cellFrom(cells[index], pointer);
     cell.name = cells[index]["name"];
     checkCell(cell);
     cell = supercell(cell, cells[index]["supercell"][0], cells[index]["supercell"][1]);

@@ -1,5 +1,6 @@
 #include "core/scene/interlock_specs.hpp"
 
+#include "core/scene/composed_cell_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -24,6 +25,16 @@ ParameterSpec ringRadius(const char* value) {
 ParameterSpec wireRadius(const char* value) {
   return lengthKey("wire_radius", "r", "Half the thickness of the wire.", value);
 }
+ParameterSpec aspect() {
+  return withDefault(
+      within(
+          number("aspect", "",
+                 "Thickness of a ring's wire along the ring's axis, over that in the ring's plane: other than 1, its "
+                 "cross-section is an ellipse, within 2 % of its smaller half axis.",
+                 dimensions::none),
+          1.0 / 3, 3),
+      1);
+}
 ParameterSpec spacing(const char* value) {
   return lengthKey("spacing", "L", "Distance of neighbouring elements at rest.", value);
 }
@@ -42,9 +53,12 @@ ParameterSpec cell(std::string type, std::string description, std::vector<Parame
 
 std::vector<ParameterSpec> rosetteKeys(const char* ring, const char* wire, const char* distance, const char* lean,
                                        const char* apart) {
-  return {ringRadius(ring), wireRadius(wire),
+  return {ringRadius(ring),
+          wireRadius(wire),
           lengthKey("distance", "", "Of the rings' centres from the element's.", distance),
-          angleKey("lean", "By which each ring is turned out of the plane about its radius.", lean), spacing(apart)};
+          angleKey("lean", "By which each ring is turned out of the plane about its radius.", lean),
+          spacing(apart),
+          aspect()};
 }
 
 ParameterSpec cellReference() {
@@ -114,7 +128,8 @@ std::vector<ParameterSpec> interlockingCellSpecs() {
       cell("four_in_one", "European 4-in-1 chain mail: staggered rings, each linked with four neighbours.",
            {ringRadius("5 mm"), wireRadius("0.8 mm"), lengthKey("width", "", "Of the cell of two rings.", "12.2 mm"),
             lengthKey("height", "", "Of the cell of two rings.", "7.5 mm"),
-            angleKey("tilt", "By which the rings are turned about x, one row down and the next up.", "28 deg")}),
+            angleKey("tilt", "By which the rings are turned about x, one row down and the next up.", "28 deg"),
+            aspect()}),
       cell("threefold", "Three fused rings around a centre, linked with six neighbours on a hexagonal lattice.",
            rosetteKeys("4.8 mm", "1 mm", "5.3 mm", "50 deg", "14.5 mm")),
       cell("square_rosette", "Four fused rings around a centre, linked with four neighbours on a square lattice.",
@@ -130,7 +145,11 @@ std::vector<ParameterSpec> interlockingCellSpecs() {
            "Six rings around a hub that carries a hexagonal plate, linked with six neighbours on a hexagonal lattice.",
            std::move(scaleKeys)),
       cell("ring_net", "Flat rings on a square lattice, joined by upright ones.",
-           {ringRadius("4 mm"), wireRadius("0.6 mm"), spacing("12 mm")})};
+           {ringRadius("4 mm"), wireRadius("0.6 mm"), spacing("12 mm"), aspect()}),
+      cell("composed",
+           "Any material: elements of shapes made of closed curves, points, segments and triangles, on a lattice, with "
+           "the links that they are meant to have.",
+           composedCellKeys())};
 }
 
 std::vector<ParameterSpec> interlockStudySpecs() {

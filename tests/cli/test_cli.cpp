@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 class TestCli : public QObject {
   Q_OBJECT
 
+  const QString mail_ = PLIANT_SOURCE_DIR "/scenes/interlock/chainmail_4in1.json";
   const QString duffing_ = PLIANT_SOURCE_DIR "/scenes/harmonic/duffing.json";
   QTemporaryDir folder_;
 
@@ -61,6 +62,12 @@ class TestCli : public QObject {
     QTest::newRow("no result") << QStringList{
         "export", file("full.json"), "--result", file("nowhere"), "--out", file("a.stl")};
     QTest::newRow("time") << QStringList{"export", file("full.json"), "--time", "3 kg", "--out", file("a.stl")};
+    const QStringList patch{"export", mail_, "--cell", "material", "--out", file("patch.stl")};
+    QTest::newRow("patch of which material") << QStringList{"export", mail_, "--out", file("patch.stl")};
+    QTest::newRow("patch outline") << patch + QStringList{"--patch", "10 by 8"};
+    QTest::newRow("patch tolerance") << patch + QStringList{"--tolerance", "0"};
+    QTest::newRow("patch clearance") << patch + QStringList{"--clearance", "1 mm"};
+    QTest::newRow("patch result") << patch + QStringList{"--result", file("results")};
     QTest::newRow("size") << QStringList{"render", duffing_, "--out", file("a.png"), "--size", "big"};
   }
   void wrongUsage() {
@@ -144,6 +151,15 @@ class TestCli : public QObject {
     QVERIFY((rest - start).norm() > 1e-4);
     QVERIFY((half - start).norm() > 1e-4);
     QVERIFY((period - start).norm() < 1e-6);
+  }
+
+  void exportOfAPatch() {
+    const auto outcome = runCli({"export", mail_, "--cell", "material", "--patch", "2x3", "--tolerance", "0.1 mm",
+                                 "--clearance", "0.5 mm", "--out", file("patch.3mf")});
+    QVERIFY2(outcome.status == 0, qPrintable(outcome.errors));
+    QVERIFY2(outcome.output.contains("12 elements") && outcome.output.contains("Clearance between elements 600.0 µm"),
+             qPrintable(outcome.output));
+    QVERIFY(QFile::exists(file("patch.3mf")));
   }
 
   void plotDrawsCurves() {

@@ -40,7 +40,7 @@ class Defaults {
 
   Json make(const std::string& list, const std::string& type) const {
     if (list == "geometry") return geometry(type);
-    if (list == "interlocking_cells") return Json::object();  // all of its keys have defaults
+    if (list == "interlocking_cells") return type == "composed" ? composedCell() : Json::object();  // all have defaults
     if (list == "materials") return {{"density", "1200 kg/m^3"}, {"young_modulus", "3 GPa"}, {"poisson_ratio", 0.35}};
     if (list == "elements") return element(type);
     if (list == "parameters") return parameter();
@@ -64,6 +64,25 @@ class Defaults {
   }
 
  private:
+  /// Flat rings joined by upright ones.
+  static Json composedCell() {
+    const Json ring = {{"type", "circle"}, {"ring_radius", "4 mm"}, {"radius", "0.6 mm"}};
+    const auto upright = [](Json position, Json axis) {
+      return Json{{"shape", "ring"},
+                  {"position", std::move(position)},
+                  {"rotation", {{"axis", std::move(axis)}, {"angle", "90 deg"}}}};
+    };
+    const auto link = [](int b, Json shift, int number) {
+      return Json{{"a", 0}, {"b", b}, {"shift", std::move(shift)}, {"number", number}};
+    };
+    return {
+        {"lattice", {{"12 mm", 0}, {0, "12 mm"}}},
+        {"shapes", Json::array({{{"name", "ring"}, {"pieces", Json::array({ring})}}})},
+        {"elements",
+         Json::array({{{"shape", "ring"}}, upright({"6 mm", 0, 0}, {1, 0, 0}), upright({0, "6 mm", 0}, {0, 1, 0})})},
+        {"links", Json::array({link(1, {0, 0}, -1), link(1, {-1, 0}, 1), link(2, {0, 0}, -1), link(2, {0, -1}, 1)})}};
+  }
+
   Json at(int node) const {
     Json place = Json::array();
     for (int axis = 0; axis < model_.dimension; ++axis)

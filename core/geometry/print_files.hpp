@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <vector>
+
+#include "core/geometry/surface_mesh.hpp"
+
+namespace pliant::geometry {
+
+/// A copy of a body, turned and moved.
+struct BodyCopy {
+  int body = 0;  ///< index in the list of bodies
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+/// All copies as one mesh [m].
+SurfaceMesh assembled(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies);
+
+/// Binary STL in millimetres, as printers read it. Throws base::InputError with the file's name as location.
+void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
+                   const std::filesystem::path& file);
+
+/// 3MF in millimetres: each body once as an object, and each copy as an item of the build, so that files stay small and
+/// copies separate ("3D Manufacturing Format, Core Specification", 1.3). Throws base::InputError as above.
+void writePrint3mf(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
+                   const std::filesystem::path& file);
+
+}  // namespace pliant::geometry

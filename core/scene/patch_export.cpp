@@ -1,0 +1,183 @@
+#include "core/scene/patch_export.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.hpp"
+#include "core/geometry/closed_mesh.hpp"
+#include "core/geometry/print_files.hpp"
+#include "core/interlock/element_body.hpp"
+#include "core/interlock/fabric_patch.hpp"
+#include "core/math/parallel.hpp"
+#include "core/scene/csv.hpp"
+#include "core/scene/input_error_location.hpp"
+#include "core/scene/interlock_builder.hpp"
+#include "core/scene/interlock_result.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/model_builder.hpp"
+
+namespace pliant::scene {
+
+using base::InputError;
+namespace dimensions = base::dimensions;
+
+namespace {
+
+/// A material in the state that is wanted.
+struct Fabric {
+  interlock::UnitCell cell;
+  interlock::CellState state;
+};
+
+const Json& studyNamed(const Scene& scene, const std::string& name) {
+  for (const Json& study : scene.normalized()["studies"])
+    if (study["name"] == name) return study;
+  throw InputError(scene.name() + ": /studies", "There is no study named " + quote(name) + ".");
+}
+
+Fabric fabricAtLimit(const Scene& scene, const PatchRequest& request, base::ExecutionContext& context) {
+  const Json& study = studyNamed(scene, request.study);
+  if (study["type"] != "cell_test")
+    throw InputError(scene.name() + ": /studies", "The study " + quote(request.study) + " is of type " +
+                                                      quote(study["type"].get<std::string>()) +
+                                                      ", but only a \"cell_test\" has one limit state.");
+  if (!request.cell.empty() && study["cell"] != request.cell)
+    throw InputError(scene.name() + ": /studies", "The study " + quote(request.study) + " is one of the cell " +
+                                                      quote(study["cell"].get<std::string>()) + ", not " +
+                                                      quote(request.cell) + ".");
+  const auto result = StudyRegistry::instance().make(scene, buildModel(scene), request.study)->run(context);
+  const auto& test = dynamic_cast<const CellTestResult&>(*result);
+  if (test.termination != base::TerminationType::converged)
+    throw InputError(
+        scene.name(), asSentence("The study " + quote(request.study) + " has no limit state: " + test.message));
+  return {*test.cell, test.limit.equilibrium.state};
+}
+
+Fabric fabricAtRest(const Scene& scene, const PatchRequest& request) {
+  const Json& cells = scene.normalized()["interlocking_cells"];
+  std::string name = request.cell;
+  if (name.empty() && cells.size() == 1) name = cells[0]["name"];
+  if (std::none_of(cells.begin(), cells.end(), [&](const Json& cell) { return cell["name"] == name; }))
+    throw InputError(
+        scene.name() + ": /interlocking_cells",
+        name.empty() ? "There are " + std::to_string(cells.size()) + " materials; --cell must say which one is wanted."
+                     : "There is no material named " + quote(name) + ".");
+  const interlock::UnitCell cell = buildCell(scene, name);
+  return {cell, restState(cell)};
+}
+
+/// The unit in the brackets of a column's name.
+double unitOf(std::string_view column) {
+  const std::size_t open = column.find('['), close = column.find(']');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open)
+    throw InputError("", "the column \"" + std::string(column) + "\" names no unit, as \"x [mm]\" does");
+  return base::parseQuantity("1 " + std::string(column.substr(open + 1, close - open - 1)), dimensions::length);
+}
+
+Eigen::Matrix2Xd polygonFrom(const std::string& file) {
+  const std::string text = readTextFile(file);
+  const auto rows = locate(file, [&] { return readCsv(text); });
+  return locate(file, [&] {
+    const std::string header = text.substr(0, text.find('\n'));
+    const std::size_t comma = header.find(',');
+    if (comma == std::string::npos) throw InputError("", "an outline needs two columns, \"x [mm]\" and \"y [mm]\"");
+    const double unitX = unitOf(header.substr(0, comma)), unitY = unitOf(header.substr(comma + 1));
+    Eigen::Matrix2Xd corners(2, static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      corners.col(static_cast<Eigen::Index>(i)) << unitX * csvNumber(rows[i][0]), unitY * csvNumber(rows[i][1]);
+    return corners;
+  });
+}
+
+double lengthFrom(const std::string& text) {
+  const double length = base::parseQuantity(text, dimensions::length);
+  if (!(length > 0)) throw InputError("", "the lengths of an outline must be above 0");
+  return length;
+}
+
+bool isWholeNumber(const std::string& text) {
+  return !text.empty() && text.size() <= 6 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+interlock::FabricPatch patchFrom(const Fabric& fabric, const std::string& outline) {
+  if (outline.ends_with(".csv")) {
+    const Eigen::Matrix2Xd polygon = polygonFrom(outline);
+    return locate(outline, [&] { return patchInside(fabric.cell, fabric.state, polygon); });
+  }
+  return locate("--patch " + quote(outline), [&] {
+    const std::size_t cross = outline.find('x');
+    if (cross == std::string::npos)
+      return patchInside(fabric.cell, fabric.state, interlock::circleOutline(lengthFrom(outline)));
+    const std::string first = outline.substr(0, cross), second = outline.substr(cross + 1);
+    if (isWholeNumber(first) && isWholeNumber(second))
+      return patchOfCells(fabric.cell, std::stoi(first), std::stoi(second));
+    return patchInside(fabric.cell, fabric.state, interlock::rectangleOutline(lengthFrom(first), lengthFrom(second)));
+  });
+}
+
+/// One mesh for each shape that the patch has elements of; others are empty.
+std::vector<geometry::BodyMesh> bodiesOf(const Fabric& fabric, const interlock::FabricPatch& patch, double tolerance) {
+  std::vector<geometry::BodyMesh> bodies(fabric.cell.shapes.size());
+  std::vector<bool> used(bodies.size(), false);
+  for (const interlock::PatchElement& element : patch.elements)
+    used[static_cast<std::size_t>(fabric.cell.elements[element.element].shape)] = true;
+  math::parallelFor(static_cast<int>(bodies.size()), [&](int i) {
+    if (used[i]) bodies[i] = interlock::ElementBody(fabric.cell.shapes[i]).mesh(tolerance);
+  });
+  return bodies;
+}
+
+}  // namespace
+
+bool isFabric(const Scene& scene) {
+  return scene.normalized()["geometry"].empty() && !scene.normalized()["interlocking_cells"].empty();
+}
+
+PatchReport exportPatch(const Scene& scene, const PatchRequest& request, const std::filesystem::path& file,
+                        base::ExecutionContext& context) {
+  const Fabric fabric = request.study.empty() ? fabricAtRest(scene, request) : fabricAtLimit(scene, request, context);
+  const interlock::FabricPatch patch = patchFrom(fabric, request.outline);
+  PatchReport report;
+  report.elements = static_cast<int>(patch.elements.size());
+  report.leftOut = patch.leftOut;
+  report.clearance = clearance(fabric.cell, fabric.state);
+  const auto show = [](double length) { return base::formatQuantity(length, dimensions::length); };
+  if (report.clearance < request.minimumClearance)
+    throw InputError(scene.name(), "Elements are " + show(report.clearance) + " apart, but at least " +
+                                       show(request.minimumClearance) + " are asked for.");
+
+  const std::vector<geometry::BodyMesh> bodies =
+      locate(scene.name(), [&] { return bodiesOf(fabric, patch, request.tolerance); });
+  std::vector<geometry::SurfaceMesh> meshes;
+  std::vector<double> volumes;
+  for (const geometry::BodyMesh& body : bodies) {
+    report.deviation = std::max(report.deviation, body.fit.deviation);
+    report.filled = std::max(report.filled, body.fit.filled);
+    volumes.push_back(body.mesh.triangles.empty() ? 0 : enclosedVolume(body.mesh));
+    meshes.push_back(body.mesh);
+  }
+  std::vector<geometry::BodyCopy> copies;
+  Eigen::AlignedBox3d box;
+  for (const interlock::PatchElement& element : patch.elements) {
+    const int shape = fabric.cell.elements[element.element].shape;
+    const geometry::BodyCopy& copy = copies.emplace_back(geometry::BodyCopy{
+        shape, fabric.state.rotations[element.element], placeOf(fabric.cell, fabric.state, element)});
+    report.triangles += static_cast<long>(meshes[shape].triangles.size());
+    report.volume += volumes[shape];
+    const Eigen::Matrix3Xd points = copy.rotation * meshes[shape].points;
+    box.extend(points.rowwise().minCoeff() + copy.position).extend(points.rowwise().maxCoeff() + copy.position);
+  }
+  report.size = box.sizes();
+  for (geometry::BodyCopy& copy : copies) copy.position -= box.min();
+
+  const std::string ending = file.extension().string();
+  if (ending == ".stl")
+    writePrintStl(meshes, copies, file);
+  else if (ending == ".3mf")
+    writePrint3mf(meshes, copies, file);
+  else
+    geometry::writeMesh(assembled(meshes, copies), file);
+  return report;
+}
+
+}  // namespace pliant::scene
