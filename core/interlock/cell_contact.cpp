@@ -99,6 +99,15 @@ Vector3d CellContact::offsetOf(const CellState& state, int a, int b, const std::
 
 std::vector<CellContact::ImagePair> CellContact::nearElements(const CellState& state, double reach) const {
   std::vector<ImagePair> pairs;
+  if (!cell_.isPeriodic()) {
+    for (int b = 1; b < static_cast<int>(cell_.elements.size()); ++b)
+      for (int a = 0; a < b; ++a) {
+        const double farthest = partsOf(a).reach() + partsOf(b).reach() + reach;
+        if ((state.positions.col(a) - state.positions.col(b)).squaredNorm() < farthest * farthest)
+          pairs.push_back({a, b, {0, 0}});
+      }
+    return pairs;
+  }
   const Matrix2d inverse = (stretchOf(state.strain) * cell_.lattice).inverse();
   const int count = static_cast<int>(cell_.elements.size());
   for (int a = 0; a < count; ++a)
@@ -162,26 +171,24 @@ PlacedPart CellContact::placed(const std::vector<Pose>& poses, int element, int 
   return result;
 }
 
-struct CellContact::Sums {
-  double energy, gap;
-  Eigen::VectorXd* gradient;
-  Eigen::MatrixXd* hessian;
-  std::vector<CellContactForce>* forces;
-};
-
-double CellContact::energy(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
-                           Eigen::VectorXd* gradient, Eigen::MatrixXd* hessian, double* smallestGap,
-                           std::vector<CellContactForce>* forces) const {
+double CellContact::visitContacts(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
+                                  bool wantGradient, bool wantHessian, const Visitor& visit) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const int size = coordinateCount();
-  if (gradient) gradient->setZero(size);
-  if (hessian) hessian->setZero(size, size);
-  if (forces) forces->clear();
   if (!state.positions.allFinite() || !state.strain.allFinite()) return infinity;
   const std::vector<Pose> poses = posesOf(state);
-  Sums sums{0, barrier.range, gradient, hessian, forces};
+  double energy = 0;
   SplitPart partsA, partsB;
   Vector3d offset;
+  ContactTerms terms;
+  // False if the parts overlap.
+  const auto add = [&](const PartPair& pair, const PlacedPart& a, const PlacedPart& b) {
+    const Vector2d translation = cell_.lattice * Vector2d(pair.shift[0], pair.shift[1]);
+    if (!terms.compute(a, b, offset, translation, barrier, wantGradient, wantHessian)) return true;
+    if (!(terms.gap > 0)) return false;
+    energy += terms.value;
+    visit(pair, terms);
+    return true;
+  };
   const PartPair* last = nullptr;
   for (const PartPair& pair : pairs) {
     const PlacedPart a = placed(poses, pair.a, pair.partA), b = placed(poses, pair.b, pair.partB);
@@ -190,41 +197,46 @@ double CellContact::energy(const CellState& state, const std::vector<PartPair>& 
     last = &pair;
     if (areApart(a, b, offset, a.part->radius + b.part->radius + barrier.range)) continue;
     if (barrier.split == 1) {
-      if (!addPair(pair, a, b, state, offset, barrier, sums)) return infinity;
+      if (!add(pair, a, b)) return infinity;
       continue;
     }
     partsA.split(a, barrier.split);
     partsB.split(b, barrier.split);
     for (const PlacedPart& subA : partsA.placed)
       for (const PlacedPart& subB : partsB.placed)
-        if (!areApart(subA, subB, offset, a.part->radius + b.part->radius + barrier.range) &&
-            !addPair(pair, subA, subB, state, offset, barrier, sums))
+        if (!areApart(subA, subB, offset, a.part->radius + b.part->radius + barrier.range) && !add(pair, subA, subB))
           return infinity;
   }
-  if (smallestGap) *smallestGap = sums.gap;
-  return sums.energy;
+  return energy;
 }
 
-bool CellContact::addPair(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const CellState& state,
-                          const Vector3d& offset, const Barrier& barrier, Sums& sums) const {
-  const auto& [energy, gap, gradient, hessian, forces] = sums;
-  const Vector2d translation = cell_.lattice * Vector2d(pair.shift[0], pair.shift[1]);
-  ContactTerms terms;
-  if (!terms.compute(a, b, offset, translation, barrier, gradient != nullptr, hessian != nullptr)) return true;
-  if (!(terms.gap > 0)) return false;
-  sums.energy += terms.value;
-  sums.gap = std::min(gap, terms.gap);
-  if (forces)
-    forces->push_back({pair, terms.gap, terms.force, terms.place + state.positions.col(pair.a), terms.normal});
+double CellContact::energy(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
+                           Eigen::VectorXd* gradient, Eigen::MatrixXd* hessian, double* smallestGap,
+                           std::vector<CellContactForce>* forces) const {
+  const int size = coordinateCount();
+  if (gradient) gradient->setZero(size);
+  if (hessian) hessian->setZero(size, size);
+  if (forces) forces->clear();
+  double gap = barrier.range;
   // Local coordinates: six of a, six of b, three of the strain.
-  const std::array<int, 3> from = {0, 6, 12}, length = {6, 6, 3}, to = {6 * pair.a, 6 * pair.b, coordinateCount() - 3};
-  for (int i = 0; i < 3; ++i) {
-    if (gradient) gradient->segment(to[i], length[i]) += terms.gradient.segment(from[i], length[i]);
-    if (!hessian) continue;
-    for (int j = 0; j < 3; ++j)
-      hessian->block(to[i], to[j], length[i], length[j]) += terms.hessian.block(from[i], from[j], length[i], length[j]);
-  }
-  return true;
+  constexpr std::array<int, 3> from = {0, 6, 12}, length = {6, 6, 3};
+  const double energy = visitContacts(
+      state, pairs, barrier, gradient != nullptr, hessian != nullptr,
+      [&](const PartPair& pair, const ContactTerms& terms) {
+        gap = std::min(gap, terms.gap);
+        if (forces)
+          forces->push_back({pair, terms.gap, terms.force, terms.place + state.positions.col(pair.a), terms.normal});
+        const std::array<int, 3> to = {6 * pair.a, 6 * pair.b, size - 3};
+        for (int i = 0; i < 3; ++i) {
+          if (gradient) gradient->segment(to[i], length[i]) += terms.gradient.segment(from[i], length[i]);
+          if (!hessian) continue;
+          for (int j = 0; j < 3; ++j)
+            hessian->block(to[i], to[j], length[i], length[j]) +=
+                terms.hessian.block(from[i], from[j], length[i], length[j]);
+        }
+      });
+  if (smallestGap) *smallestGap = gap;
+  return energy;
 }
 
 double CellContact::smallestGap(const CellState& state, double reach, PartPair* where) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -13,11 +14,14 @@ namespace pliant::interlock {
 ///   F = [1 + m + a, b; b, 1 + m - a],
 /// which is symmetric: a rotation in the plane is left to the elements. A state with the principal stretches 1 + ε_p
 /// in the direction θ and 1 + ε_o across it is m = (ε_p + ε_o)/2, (a, b) = (ε_p - ε_o)/2 (cos 2θ, sin 2θ).
+/// Of a finite patch it holds the curvature [1/m] of a paraboloid in the same way, see PatchSolver.
 struct CellState {
   Eigen::Matrix3Xd positions;              ///< of the elements' origins [m]
   std::vector<Eigen::Matrix3d> rotations;  ///< of the elements
   Eigen::Vector3d strain = Eigen::Vector3d::Zero();
 };
+
+struct ContactTerms;
 
 CellState restState(const UnitCell& cell);
 Eigen::Matrix2d stretchOf(const Eigen::Vector3d& strain);
@@ -43,9 +47,9 @@ struct CellContactForce {
   Eigen::Vector3d normal;  ///< from B to A
 };
 
-/// Contact between the elements of a periodic cell. Each pair of parts at gap g = distance - radii adds
-/// weight · b(g)/range², with b the barrier of mechanics::BarrierFunction; the energy has no unit. Close to contact its
-/// force is weight/g.
+/// Contact between the elements of a periodic cell, or of a finite patch, which has no images. Each pair of parts at
+/// gap g = distance - radii adds weight · b(g)/range², with b the barrier of mechanics::BarrierFunction; the energy has
+/// no unit. Close to contact its force is weight/g.
 class CellContact {
  public:
   struct Barrier {
@@ -73,6 +77,12 @@ class CellContact {
   /// All pairs of parts with a gap below `reach` [m], and some others.
   std::vector<PartPair> nearParts(const CellState& state, double reach) const;
 
+  /// Calls `visit` for each contact within range, with its terms: derivatives as far as wanted. Returns the energy of
+  /// the pairs; infinite if any of them overlap, or a number is not finite, and then some contacts are not visited.
+  using Visitor = std::function<void(const PartPair&, const ContactTerms&)>;
+  double visitContacts(const CellState& state, const std::vector<PartPair>& pairs, const Barrier& barrier,
+                       bool wantGradient, bool wantHessian, const Visitor& visit) const;
+
   /// Energy of the pairs; infinite if any of them overlap, or a number is not finite. `gradient` and `hessian` get one
   /// entry a coordinate, `smallestGap` the least of all gaps or the range, `forces` all contacts within range; null
   /// where not wanted.
@@ -91,11 +101,6 @@ class CellContact {
   struct Pose;  ///< all parts turned
   std::vector<Pose> posesOf(const CellState& state) const;
   PlacedPart placed(const std::vector<Pose>& poses, int element, int part) const;
-  struct Sums;  ///< where the terms of all pairs go
-  /// False if the parts overlap.
-  bool addPair(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const CellState& state,
-               const Eigen::Vector3d& offset, const Barrier& barrier, Sums& sums) const;
-
   UnitCell cell_;
   std::vector<ElementParts> parts_;  ///< by shape
 };

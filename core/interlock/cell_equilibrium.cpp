@@ -39,7 +39,7 @@ CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& dri
   if (!(contact_.smallestGap(start, radius_) > 0)) return fail("elements overlap in the state to start from");
   if (linkFinder_.linksAt(start) != links_)
     return fail("elements are not linked in the state to start from as at rest");
-  result = search.run();
+  result = search.run(options_);
   if (linkFinder_.linksAt(result.state) != links_) return fail("a linking number changed on the way");
   return result;
 }
@@ -47,24 +47,30 @@ CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& dri
 CellState CellSolver::relaxed(const CellState& state) const {
   StrainDrive drive;
   drive.directions.resize(3, 0);
-  return EquilibriumSearch(*this, state, drive, nullptr).relax();
+  return EquilibriumSearch(*this, state, drive, nullptr).relax(options_);
+}
+
+CellState perturbedState(const CellContact& contact, const CellState& state, double radius, double amplitude,
+                         unsigned seed, const std::function<CellState(const VectorXd&, double)>& move) {
+  std::mt19937 random(seed);
+  VectorXd velocity = VectorXd::Zero(contact.coordinateCount());
+  for (Eigen::Index i = 0; i < velocity.size() - 3; ++i) {
+    const int element = static_cast<int>(i / 6);
+    const double scale = i % 6 < 3 ? radius : radius / contact.partsOf(element).reach();
+    velocity[i] = scale * (2 * (random() / 4294967296.0) - 1);
+  }
+  const double reach = 2 * radius, gap = contact.smallestGap(state, reach);
+  for (double step = amplitude; step > 1e-9 * amplitude; step *= 0.5) {
+    CellState next = move(velocity, step);
+    // Far less than what could take one element through another.
+    if (step <= 0.1 && contact.smallestGap(next, reach) >= 0.5 * gap) return next;
+  }
+  return state;
 }
 
 CellState CellSolver::perturbed(const CellState& state, double amplitude, unsigned seed) const {
-  std::mt19937 random(seed);
-  VectorXd velocity = VectorXd::Zero(contact_.coordinateCount());
-  for (Eigen::Index i = 0; i < velocity.size() - 3; ++i) {
-    const int element = static_cast<int>(i / 6);
-    const double scale = i % 6 < 3 ? radius_ : radius_ / contact_.partsOf(element).reach();
-    velocity[i] = scale * (2 * (random() / 4294967296.0) - 1);
-  }
-  const double reach = 2 * radius_, gap = contact_.smallestGap(state, reach);
-  for (double step = amplitude; step > 1e-9 * amplitude; step *= 0.5) {
-    CellState next = moved(state, velocity, step);
-    // Far less than what could take one element through another.
-    if (step <= 0.1 && contact_.smallestGap(next, reach) >= 0.5 * gap) return next;
-  }
-  return state;
+  return perturbedState(contact_, state, radius_, amplitude, seed,
+                        [&](const VectorXd& velocity, double step) { return moved(state, velocity, step); });
 }
 
 }  // namespace pliant::interlock

@@ -34,10 +34,12 @@ struct StrainDrive {
 };
 
 struct EquilibriumOptions {
-  double finalGap = 1e-4;       ///< mean gap of the contacts that hold, relative to the smallest radius
-  double firstGap = 0.1;        ///< the same in the first of the problems that lead there
-  double reduction = 0.1;       ///< of the gap from each to the next
-  double rangeRatio = 10;       ///< range of the barrier over the gap wanted
+  double finalGap = 1e-4;  ///< mean gap of the contacts that hold, relative to the smallest radius
+  double firstGap = 0.1;   ///< the same in the first of the problems that lead there
+  double reduction = 0.1;  ///< of the gap from each to the next
+  double rangeRatio = 10;  ///< range of the barrier over the gap wanted
+  /// Newton's decrement over the barrier's weight at which the problems on the way count as solved.
+  double looseTolerance = 0.1;
   int maximumIterations = 600;  ///< of Newton's method, in all
 };
 
@@ -66,6 +68,11 @@ struct CellEquilibrium {
 
   bool converged() const { return termination == base::TerminationType::converged; }
 };
+
+/// Elements moved and turned at random by about `amplitude` times `radius`, by `move` (a velocity and a step), less if
+/// they would come nearer than half the smallest gap. The same for the same seed.
+CellState perturbedState(const CellContact& contact, const CellState& state, double radius, double amplitude,
+                         unsigned seed, const std::function<CellState(const Eigen::VectorXd&, double)>& move);
 
 /// Statics of a cell under contact: Newton's method for the energy with a barrier that shrinks until contacts are as
 /// near as asked for.

@@ -30,7 +30,8 @@ struct Link {
   }
 };
 
-/// A material that fills the plane z = 0 by repetition (thesis 4.3.2): the elements of one cell and two translations.
+/// A material that fills the plane z = 0 by repetition (thesis 4.3.2): the elements of one cell and two translations. A
+/// finite patch is the same without translations (see cutPatch): its lattice is 0, and it has no images.
 struct UnitCell {
   std::string name;
   std::vector<ElementShape> shapes;
@@ -39,6 +40,7 @@ struct UnitCell {
   std::vector<Link> links;                            ///< that the material is meant to have at rest
 
   double smallestRadius() const;  ///< of all pieces [m]
+  bool isPeriodic() const { return !lattice.isZero(0); }
 };
 
 /// The same material with `first` x `second` cells as one, whose elements may then move differently.

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "core/interlock/cell_equilibrium.hpp"
+
+namespace pliant::interlock {
+
+/// Minimises an objective under contact by a barrier that shrinks, with Newton steps of limited length: what statics of
+/// cells and of finite patches have in common. Those who derive from it say what the unknowns are.
+class BarrierDescent {
+ public:
+  virtual ~BarrierDescent() = default;
+
+  /// Until contacts are as near as `options` ask for.
+  CellEquilibrium run(const EquilibriumOptions& options);
+  /// The barrier alone, at its widest, until Newton's decrement over the barrier's weight is below the tolerance.
+  CellState relax(const EquilibriumOptions& options, double tolerance = 1e-6);
+
+ protected:
+  /// `radius`: smallest of all pieces [m].
+  BarrierDescent(const CellContact& contact, const CellState& start, double radius,
+                 const base::ExecutionContext* context);
+
+  enum class Outcome { minimum, reached, unlimited, noProgress, iterationLimit, cancelled };
+
+  /// Objective without the barrier; 0 at the start or anywhere else.
+  virtual double objective(const CellState& state) const = 0;
+  /// Energy of contact at state_ and its smallest gap, and all derivatives, which direction() needs.
+  virtual double linearize(const CellContact::Barrier& barrier, double& gap) = 0;
+  /// Newton's direction at state_ as a velocity of CellState; sets decrement_.
+  virtual Eigen::VectorXd direction() = 0;
+  virtual CellState advanced(const CellState& state, const Eigen::VectorXd& velocity, double step) const = 0;
+  /// The largest step, up to 1, that passes nothing by.
+  virtual double largestStep(const Eigen::VectorXd& velocity, double range) const = 0;
+  /// How far two points of elements or images that are near each other move relative to one another at most [m], for
+  /// a step of the whole velocity.
+  virtual double relativePath(const Eigen::VectorXd& velocity, double reach) const = 0;
+  /// The weight of the barrier that balances the drive at `gap` [m].
+  virtual double weightFor(double gap) const = 0;
+  virtual bool hasReached() const = 0;
+  virtual bool isUnlimited() const = 0;
+
+  const CellContact& contact_;
+  const CellState start_;
+  const double radius_;
+  const double pathLimit_;  ///< [m]
+  double trust_;            ///< longest step along an eigenvector [m]
+  CellState state_;
+  std::vector<PartPair> pairs_;  ///< near enough for the barrier at state_
+  double decrement_ = 0;         ///< Newton's, at the last point looked at
+  int iterations_ = 0;
+
+ private:
+  /// Newton's method for one barrier.
+  Outcome minimize(const CellContact::Barrier& barrier, double tolerance, int maximumIterations);
+  void measure(const CellContact::Barrier& barrier, CellEquilibrium& result);
+
+  const base::ExecutionContext* context_;
+};
+
+}  // namespace pliant::interlock

@@ -1,0 +1,74 @@
+#include "core/interlock/bending_limit.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numbers>
+
+#include "core/interlock/paraboloid.hpp"
+#include "core/math/parallel.hpp"
+
+namespace pliant::interlock {
+
+namespace {
+
+/// Share of the forces above which elements that are not neighbours are said to hold a patch.
+constexpr double mostRemote = 1e-3;
+
+}  // namespace
+
+Eigen::MatrixXi neighboursAtRest(const UnitCell& patch) {
+  const int count = static_cast<int>(patch.elements.size());
+  const auto apart = [&](int a, int b) { return (patch.elements[a].position - patch.elements[b].position).norm(); };
+  Eigen::MatrixXi neighbours = Eigen::MatrixXi::Zero(count, count);
+  double longest = 0;
+  for (const Link& link : patch.links) longest = std::max(longest, apart(link.a, link.b));
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) neighbours(a, b) = apart(a, b) <= 1.5 * longest;
+  return neighbours;
+}
+
+BendingLimit judged(const PatchSolver& solver, double angle, CellEquilibrium equilibrium) {
+  BendingLimit limit;
+  limit.angle = angle;
+  limit.equilibrium = std::move(equilibrium);
+  const CellState& state = limit.equilibrium.state;
+  limit.curvature = strainAlong(state.strain, angle);
+  limit.orthogonal = strainAlong(state.strain, angle + 0.5 * std::numbers::pi);
+  const Paraboloid paraboloid{state.strain};
+  for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
+    limit.steepest = std::max(limit.steepest, paraboloid.slope(state.positions(0, i), state.positions(1, i)).norm());
+  const Eigen::MatrixXi neighbours = neighboursAtRest(solver.patch());
+  double all = 0, remote = 0;
+  for (const CellContactForce& contact : limit.equilibrium.contacts) {
+    all += contact.force;
+    if (neighbours(contact.pair.a, contact.pair.b) == 0) remote += contact.force;
+  }
+  limit.remoteShare = all > 0 ? remote / all : 0;
+  if (limit.equilibrium.converged())
+    limit.kind = limit.equilibrium.kind == RestKind::locked && limit.remoteShare <= mostRemote ? BendingKind::locked
+                                                                                               : BendingKind::folded;
+  return limit;
+}
+
+BendingLimit bendingLimit(const PatchSolver& solver, double angle, bool down, const BendingOptions& options,
+                          const base::ExecutionContext* context) {
+  CellState start = restState(solver.patch());
+  if (options.perturbation > 0) start = solver.perturbed(start, options.perturbation, options.seed);
+  const StrainDrive drive = uniaxialDrive(angle, down, options.lateral);
+  return judged(solver, angle, solver.bendInSteps(start, drive, options.increment, context));
+}
+
+std::vector<BendingLimits> bendingLimits(const PatchSolver& solver, const std::vector<double>& angles,
+                                         const BendingOptions& options, base::ExecutionContext& context) {
+  const int count = 2 * static_cast<int>(angles.size());
+  std::vector<BendingLimits> limits(angles.size());
+  std::atomic<int> done{0};
+  math::parallelFor(count, [&](int i) {
+    BendingLimit& limit = i % 2 == 0 ? limits[i / 2].up : limits[i / 2].down;
+    limit = bendingLimit(solver, angles[i / 2], i % 2 == 1, options, &context);
+    context.reportProgress(static_cast<double>(++done) / count);
+  });
+  return limits;
+}
+
+}  // namespace pliant::interlock
