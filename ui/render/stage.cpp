@@ -8,7 +8,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkTextProperty.h>
 
-#include "ui/render/thread_safe_text.hpp"
 #include "ui/render/vtk_text.hpp"
 
 namespace pliant::render {
@@ -20,7 +19,6 @@ constexpr int fineSamples = 8;
 }  // namespace
 
 Stage::Stage() {
-  makeTextThreadSafe();
   // What is drawn is small: waking VTK's pool of threads costs more than it saves, and the solver wants the cores.
   vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   renderer_->AutomaticLightCreationOff();

@@ -10,6 +10,7 @@
 #include "ui/render/camera_control.hpp"
 #include "ui/render/gizmo.hpp"
 #include "ui/render/legend.hpp"
+#include "ui/render/thread_safe_text.hpp"
 #include "ui/render/view.hpp"
 
 namespace pliant::render {
@@ -52,6 +53,7 @@ class Stage {
  private:
   void layOut();
 
+  ThreadSafeText threadSafeText_;  // before any text
   vtkNew<vtkRenderer> renderer_;
   CameraControl camera_{renderer_};
   Gizmo gizmo_;
