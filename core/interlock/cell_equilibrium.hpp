@@ -6,18 +6,10 @@
 
 #include "core/base/execution_context.hpp"
 #include "core/base/solver_report.hpp"
+#include "core/interlock/element_pull.hpp"
 #include "core/interlock/linking_number.hpp"
 
 namespace pliant::interlock {
-
-/// A force on the origin of one element: adds -force · x + ½ spring |x - target|² to the objective, for its position x
-/// in the cell. The first element keeps its place, since a cell as a whole has none.
-struct ElementPull {
-  int element = 0;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [1/m]
-  double spring = 0;                                 ///< [1/m²]
-  Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< [m]
-};
 
 /// What pulls on a cell: the strain moves along `directions` (columns, linearly independent) from where it is, and
 ///   -load · ε + ½ spring |ε - target|²

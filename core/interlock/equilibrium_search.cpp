@@ -29,22 +29,15 @@ EquilibriumSearch::EquilibriumSearch(const CellSolver& solver, const CellState& 
 
 double EquilibriumSearch::objective(const CellState& state) const {
   double sum = -travelled(state.strain) + 0.5 * drive_.spring * (state.strain - drive_.target).squaredNorm();
-  for (const ElementPull& pull : drive_.pulls) {
-    const Vector3d place = state.positions.col(pull.element);
-    sum += 0.5 * pull.spring * (place - pull.target).squaredNorm() -
-           pull.force.dot(place - start_.positions.col(pull.element));
-  }
+  for (const ElementPull& pull : drive_.pulls)
+    sum += energyOf(contact_.cell(), state, pull, placeOf(contact_.cell(), start_, pull));
   return sum;
 }
 
 void EquilibriumSearch::addObjective(VectorXd& gradient, MatrixXd* hessian) const {
   gradient.tail<3>() += drive_.spring * (state_.strain - drive_.target) - drive_.load;
   if (hessian) hessian->diagonal().tail<3>().array() += drive_.spring;
-  for (const ElementPull& pull : drive_.pulls) {
-    const Vector3d place = state_.positions.col(pull.element);
-    gradient.segment<3>(6 * pull.element) += pull.spring * (place - pull.target) - pull.force;
-    if (hessian) hessian->diagonal().segment<3>(6 * pull.element).array() += pull.spring;
-  }
+  for (const ElementPull& pull : drive_.pulls) addDerivatives(contact_.cell(), state_, pull, gradient, hessian);
 }
 
 double EquilibriumSearch::pull() const {

@@ -124,10 +124,14 @@ UnitCell supercell(const UnitCell& cell, int first, int second) {
   return result;
 }
 
-void checkCell(const UnitCell& cell) {
+void checkCellGeometry(const UnitCell& cell) {
   for (const ElementShape& shape : cell.shapes) checkShape(shape);
   checkElements(cell);
   checkLattice(cell.lattice);
+}
+
+void checkCell(const UnitCell& cell) {
+  checkCellGeometry(cell);
   const CellContact contact(cell);
   PartPair where{};
   const double reach = cell.smallestRadius();

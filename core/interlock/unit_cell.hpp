@@ -54,5 +54,7 @@ Link canonical(const Link& link);
 /// that is not there, a position or rotation that is none, a lattice whose vectors are parallel, elements that overlap
 /// at rest, closed pieces that are linked otherwise than declared. Only cells that pass may be computed with.
 void checkCell(const UnitCell& cell);
+/// The part of it after which gaps and links can be measured: shapes, elements and lattice, each by itself.
+void checkCellGeometry(const UnitCell& cell);
 
 }  // namespace pliant::interlock

@@ -58,6 +58,15 @@ interlock::UnitCell buildCell(const Scene& scene, const std::string& name) {
   }
 }
 
+DraftCell draftCell(const Scene& scene, std::size_t index) {
+  const Json& entry = scene.normalized()["interlocking_cells"][index];
+  DraftCell draft;
+  draft.cell = cellFrom(entry);
+  draft.cell.name = entry["name"];
+  draft.supercell = supercell(draft.cell, entry["supercell"][0], entry["supercell"][1]);
+  return draft;
+}
+
 mechanics::Model cellPicture(const Scene& scene) {
   constexpr int cells = 3;
   const interlock::UnitCell cell = cellAt(scene.normalized()["interlocking_cells"], 0);

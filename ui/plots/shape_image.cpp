@@ -12,6 +12,13 @@ namespace pliant::plots {
 
 namespace {
 
+constexpr double finestEdges = 8;  // [pixels²]: mean area of triangles with edges
+
+QColor mixed(const QColor& from, const QColor& to, double share) {
+  const auto between = [share](int a, int b) { return static_cast<int>(std::lround(a + share * (b - a))); };
+  return {between(from.red(), to.red()), between(from.green(), to.green()), between(from.blue(), to.blue())};
+}
+
 /// Points seen isometrically: x and y on the picture (y down), z towards the eye.
 Eigen::Matrix3Xd projected(Eigen::Matrix3Xd points, int dimension) {
   if (dimension < 3) {
@@ -52,13 +59,25 @@ QImage shapeImage(const mechanics::Model& model, const Eigen::VectorXd& position
   const auto depth = [&](const std::array<int, 3>& t) { return points(2, t[0]) + points(2, t[1]) + points(2, t[2]); };
   std::stable_sort(
       triangles.begin(), triangles.end(), [&](const auto& a, const auto& b) { return depth(a) < depth(b); });
+  // Where triangles are as small as pixels their edges would be all there is to see.
+  double area = 0;
+  for (const auto& [a, b, c] : triangles)
+    area += 0.5 * (points.col(b) - points.col(a)).cross(points.col(c) - points.col(a)).norm();
+  const bool fine =
+      !triangles.empty() && area / (extent * extent) < finestEdges * static_cast<double>(triangles.size());
   QColor fill = style.curve;
   painter.setPen(QPen(style.background, 0.7 * scale * scale));
   for (const auto& triangle : triangles) {
     const Eigen::Vector3d normal = (points.col(triangle[1]) - points.col(triangle[0]))
                                        .cross(points.col(triangle[2]) - points.col(triangle[0]))
                                        .normalized();
-    fill.setAlphaF(static_cast<float>(0.45 + 0.5 * std::abs(normal.z())));
+    const double shade = 0.45 + 0.5 * std::abs(normal.z());
+    if (fine) {
+      fill = mixed(style.background, style.curve, shade);
+      painter.setPen(QPen(fill, 0.7));
+    } else {
+      fill.setAlphaF(static_cast<float>(shade));
+    }
     painter.setBrush(fill);
     const QPointF corners[3] = {at(triangle[0]), at(triangle[1]), at(triangle[2])};
     painter.drawConvexPolygon(corners, 3);

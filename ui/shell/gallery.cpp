@@ -15,49 +15,11 @@
 #include <algorithm>
 
 #include "core/scene/scene.hpp"
+#include "ui/shell/card.hpp"
 #include "ui/shell/shipped_files.hpp"
 #include "ui/shell/thumbnail.hpp"
 
 namespace pliant::shell {
-
-namespace {
-
-constexpr QSize cardSize(256, 248);
-constexpr int gap = 16;
-constexpr int sideMargin = 48;
-constexpr QSize pictureSize(240, 128);
-
-/// A card that is one big button: picture, title, description.
-QPushButton* makeCard(const GalleryScene& scene, QLabel*& picture) {
-  auto* card = new QPushButton;
-  card->setFixedSize(cardSize);
-  card->setCursor(Qt::PointingHandCursor);
-  card->setAccessibleName(scene.title);
-  card->setToolTip(scene.file);
-  auto* column = new QVBoxLayout(card);
-  column->setContentsMargins(8, 8, 8, 8);
-  column->setSpacing(4);
-  picture = new QLabel;
-  picture->setFixedSize(pictureSize);
-  auto* title = new QLabel(scene.title);
-  QFont strong = title->font();
-  strong.setWeight(QFont::DemiBold);
-  title->setFont(strong);
-  auto* description = new QLabel(scene.description);
-  description->setWordWrap(true);
-  description->setAlignment(Qt::AlignTop);
-  description->setForegroundRole(QPalette::PlaceholderText);
-  description->setMinimumHeight(0);
-  description->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // a long text does not push the title up
-  for (QLabel* label : {picture, title, description}) {
-    label->setAttribute(Qt::WA_TransparentForMouseEvents);
-    column->addWidget(label);
-  }
-  column->setStretch(2, 1);
-  return card;
-}
-
-}  // namespace
 
 std::vector<GalleryScene> shippedScenes() {
   std::vector<GalleryScene> scenes;
@@ -93,20 +55,25 @@ Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), qui
   text->setForegroundRole(QPalette::PlaceholderText);
   auto* open = new QPushButton(tr("Open…"));
   connect(open, &QPushButton::clicked, this, &Gallery::openRequested);
+  auto* materials = new QPushButton(tr("Interlocking Materials…"));
+  materials->setToolTip(tr("Begin with a kind of chain mail and change its numbers"));
+  connect(materials, &QPushButton::clicked, this, &Gallery::materialsRequested);
   auto* line = new QHBoxLayout;
   line->setSpacing(8);
   line->addWidget(text);
   line->addWidget(open);
+  line->addWidget(materials);
   line->addStretch();
 
   auto* cards = new QWidget;
   auto* grid = new QGridLayout(cards);
   grid_ = grid;
   grid->setContentsMargins(0, 0, 0, 0);
-  grid->setSpacing(gap);
+  grid->setSpacing(cardGap);
   for (const GalleryScene& scene : shippedScenes()) {
     Card card{scene.file, nullptr, nullptr};
-    card.button = makeCard(scene, card.picture);
+    card.button = makeCard(scene.title, scene.description, card.picture);
+    card.button->setToolTip(scene.file);
     connect(card.button, &QPushButton::clicked, this, [this, file = scene.file] { Q_EMIT sceneChosen(file); });
     cards_.push_back(card);
   }
@@ -120,7 +87,7 @@ Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), qui
   cards->setBackgroundRole(QPalette::Base);
 
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(sideMargin, 40, sideMargin, 40);
+  column->setContentsMargins(galleryMargin, 40, galleryMargin, 40);
   column->setSpacing(16);
   column->addWidget(head);
   column->addLayout(line);
@@ -134,7 +101,7 @@ void Gallery::drawPictures() {
     job.work = [file = card.file, picture = QPointer<QLabel>(card.picture), palette = palette(),
                 ratio = devicePixelRatioF()](base::ExecutionContext& context, const jobs::Publish&) -> jobs::Delivery {
       if (context.cancelRequested()) return {};
-      const QImage image = thumbnail(file, pictureSize, ratio, palette);
+      const QImage image = thumbnail(file, cardPictureSize, ratio, palette);
       return [picture, image] {
         if (picture) picture->setPixmap(QPixmap::fromImage(image));
       };
@@ -144,8 +111,7 @@ void Gallery::drawPictures() {
 }
 
 void Gallery::layOut() {
-  const int room = std::max(width(), 640) - 2 * sideMargin;
-  const int columns = std::max(1, (room + gap) / (cardSize.width() + gap));
+  const int columns = cardColumns(width());
   if (columns == columns_) return;
   for (std::size_t i = 0; i < cards_.size(); ++i)
     grid_->addWidget(cards_[i].button, static_cast<int>(i) / columns, static_cast<int>(i) % columns);

@@ -32,6 +32,7 @@ class Gallery final : public QWidget {
  Q_SIGNALS:
   void sceneChosen(const QString& file);
   void openRequested();
+  void materialsRequested();
 
  protected:
   void changeEvent(QEvent* event) override;

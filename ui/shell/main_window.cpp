@@ -64,6 +64,7 @@ MainWindow::MainWindow(bool remember, QWidget* parent)
   makeMenus();
   makeToolBar();
   makeLiveBar();
+  makeCellViews();
   palette_ = new CommandPalette(this);
   connectParts();
   resize(sizeHint());
@@ -83,6 +84,7 @@ MainWindow::~MainWindow() {
   document_.undoStack().disconnect();
   session_.disconnect();
   live_.disconnect();
+  liveCell_.disconnect();
   studyJobs_.disconnect(status_);
   quickJobs_.disconnect(status_);
   drapeJobs_.disconnect();
@@ -155,6 +157,7 @@ void MainWindow::buildDocks() {
   tabifyDockWidget(motion, energies);
   tabifyDockWidget(energies, log);
   plot->raise();
+  makeCellDock();
 }
 
 void MainWindow::buildStatusBar() {

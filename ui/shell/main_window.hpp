@@ -4,6 +4,7 @@
 
 #include "ui/document/document.hpp"
 #include "ui/document/recent_files.hpp"
+#include "ui/jobs/cell_session.hpp"
 #include "ui/jobs/cloth_session.hpp"
 #include "ui/jobs/job_runner.hpp"
 #include "ui/jobs/motion_session.hpp"
@@ -18,6 +19,7 @@ class QToolButton;
 class QVBoxLayout;
 
 namespace pliant::panels {
+class CellPanel;
 class EnergyPanel;
 class LimitPanel;
 class LogPanel;
@@ -35,8 +37,10 @@ class Viewport;
 
 namespace pliant::shell {
 
+class CellBar;
 class CommandPalette;
 class DrapeGallery;
+class ElementGallery;
 class Gallery;
 class JobStatus;
 class LiveBar;
@@ -56,6 +60,7 @@ class MainWindow final : public QMainWindow {
   document::Document& document() { return document_; }
   jobs::MotionSession& session() { return session_; }
   jobs::ClothSession& live() { return live_; }
+  jobs::CellSession& liveCell() { return liveCell_; }
   ActionRegistry& actions() { return actions_; }
   viewport::Viewport& viewport() { return *viewport_; }
   panels::ParameterPanel& parameters() { return *parameters_; }
@@ -67,6 +72,9 @@ class MainWindow final : public QMainWindow {
   panels::LimitPanel& limits() { return *limits_; }
   panels::EnergyPanel& energies() { return *energies_; }
   DrapeGallery& drapes() { return *drapes_; }
+  panels::CellPanel& cellPanel() { return *cellPanel_; }
+  ElementGallery& elements() { return *elements_; }
+  CellBar& cellBar() { return *cellBar_; }
 
   /// See frameExport; a message says what came of it.
   void exportFramesTo(const QString& file);
@@ -85,6 +93,12 @@ class MainWindow final : public QMainWindow {
   void connectParts();
   void makeActions();
   void makeClothActions();
+  void makeCellActions();
+  void makeCellDock();
+  void makeCellViews();
+  void showElements(bool shown);
+  void chooseFamily(const std::string& type, int cell);
+  void fitCellDocks();
   void makeDrapeGallery();
   void showDrapes(bool shown);
   void addShownDrape();
@@ -130,6 +144,7 @@ class MainWindow final : public QMainWindow {
   jobs::StudyRunner studies_;
   jobs::MotionSession session_;
   jobs::ClothSession live_;
+  jobs::CellSession liveCell_;
   document::RecentFiles recent_;
   ActionRegistry actions_;
   Theme theme_ = Theme::system;
@@ -137,6 +152,7 @@ class MainWindow final : public QMainWindow {
   QStackedWidget* pages_ = nullptr;
   Gallery* gallery_ = nullptr;
   DrapeGallery* drapes_ = nullptr;
+  ElementGallery* elements_ = nullptr;
   QVBoxLayout* stage_ = nullptr;  ///< the viewport and what stands below it
   viewport::Viewport* viewport_ = nullptr;
   panels::MessageBar* messages_ = nullptr;
@@ -148,6 +164,9 @@ class MainWindow final : public QMainWindow {
   panels::LimitPanel* limits_ = nullptr;
   panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;
+  panels::CellPanel* cellPanel_ = nullptr;
+  QDockWidget* cellDock_ = nullptr;
+  CellBar* cellBar_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;

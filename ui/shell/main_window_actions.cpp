@@ -17,6 +17,7 @@
 #include "ui/panels/parameter_slider.hpp"
 #include "ui/panels/response_panel.hpp"
 #include "ui/panels/scene_tree.hpp"
+#include "ui/shell/cell_link.hpp"
 #include "ui/shell/command_palette.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/live_bar.hpp"
@@ -91,6 +92,7 @@ void MainWindow::makeActions() {
 
   makeClothActions();
   makeLiveActions();
+  makeCellActions();
   add("model.reset", tr("&Reset All Parameters"), "reset", {}, tr("Set all parameters as they are in the file"),
       [this] { resetParameters(); });
   add("model.nextProbe", tr("Next &Probe"), "", QKeySequence(Qt::Key_P), tr("Select the next probe"),
@@ -156,7 +158,7 @@ void MainWindow::makeMenus() {
                                          "view.theme.system",
                                          "view.theme.light",
                                          "view.theme.dark"});
-  fill(menuBar()->addMenu(tr("&Model")), {"model.reset", "model.nextProbe"});
+  fill(menuBar()->addMenu(tr("&Model")), {"model.reset", "model.nextProbe", "-", "model.elements", "cell.reset"});
   QMenu* study = menuBar()->addMenu(tr("&Study"));
   connect(study, &QMenu::aboutToShow, this, [this, study] { fillStudyMenu(study); });
   fillStudyMenu(study);
@@ -244,6 +246,7 @@ void MainWindow::refreshActions() {
   enable("file.exportFrames", session_.shown().has_value() || viewport_->showsCloth());
   enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
   actions_.find(QStringLiteral("view.drapes"))->setChecked(pages_->currentIndex() == 2);
+  enable("cell.reset", showsCells(document_));
   enable("live.open", liveBar_ && !liveBar_->study().empty());
   for (const char* id : {"live.step", "live.reset", "live.record"}) enable(id, live_.isOpen());
   enable("study.run", open && !document_.studies().empty() && !busy && !editing);

@@ -174,6 +174,7 @@ void MainWindow::showFittingDocks() {
   docks_[3]->raise();
   if (cloth)
     for (QDockWidget* dock : clothDocks_) dock->raise();
+  fitCellDocks();
 }
 
 }  // namespace pliant::shell

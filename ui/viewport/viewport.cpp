@@ -110,6 +110,7 @@ void Viewport::setSelectedNode(std::optional<int> node) {
 void Viewport::setCaption(const QString& text) {
   motion_.setCaption(text.toStdString());
   cloth_.setCaption(text.toStdString());
+  cell_.setCaption(text.toStdString());
   redraw();
 }
 
@@ -185,19 +186,24 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
   pressPosition_ = lastPosition_ = event->position();
   dragged_ = false;
   if (live_ && event->button() == Qt::LeftButton) beginPull(*event);
+  if (showsCell() && event->button() == Qt::LeftButton) beginGrip(*event);
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
   const bool turns = event->buttons() & (Qt::LeftButton | Qt::RightButton);
   const bool middle = event->buttons() & Qt::MiddleButton;
   if (!turns && !middle) {
-    if (live_) refreshCursor(event->position());
+    if (live_ || showsCell()) refreshCursor(event->position());
     return;
   }
   if (!dragged_ && (event->position() - pressPosition_).manhattanLength() < QApplication::startDragDistance()) return;
   dragged_ = true;
   if (pulled_) {
     movePull(event->position());
+    return;
+  }
+  if (grip_) {
+    moveGrip(event->position());
     return;
   }
   framed_ = false;
@@ -214,6 +220,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (pulled_) endPull(event->modifiers() & Qt::ControlModifier);
+  if (grip_) endGrip();
   if (!dragged_) Q_EMIT nodePicked(nodeAt(event->position()).value_or(-1));
 }
 
@@ -243,6 +250,8 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Escape:
       if (pulled_)
         endPull(false);
+      else if (grip_)
+        endGrip();
       else
         QWidget::keyPressEvent(event);
       break;
@@ -287,8 +296,7 @@ render::Theme Viewport::theme() const {
 }
 
 void Viewport::applyTheme() {
-  for (render::View* view : {static_cast<render::View*>(&motion_), static_cast<render::View*>(&cloth_)})
-    view->setTheme(theme());
+  for (render::View* view : std::initializer_list<render::View*>{&motion_, &cloth_, &cell_}) view->setTheme(theme());
   redraw();
 }
 

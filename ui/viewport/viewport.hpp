@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/harmonic/harmonic_balance_problem.hpp"
+#include "ui/render/cell_view.hpp"
 #include "ui/render/cloth_view.hpp"
 #include "ui/render/film.hpp"
 #include "ui/render/motion_view.hpp"
@@ -60,6 +61,17 @@ class Viewport : public QWidget {
   void showLive(std::shared_ptr<const scene::ClothFrame> frame, std::vector<render::Hand> hands);
   /// The node that the mouse pulls.
   std::optional<int> pulledNode() const { return pulled_; }
+  /// Shows an interlocking cell in the place of the model, at rest; null: the model again. Its elements and handles are
+  /// pulled by a left drag that begins at one of them. See render::CellView.
+  void setCell(std::shared_ptr<const interlock::UnitCell> cell);
+  bool showsCell() const { return view_ == &cell_; }
+  render::CellView& cellView() { return cell_; }
+  /// Where its elements are now. The view follows as long as nobody moved the camera or holds a grip.
+  void showCellState(const interlock::CellState& state, const std::vector<interlock::LiveContact>& contacts);
+  void redrawCell() { redraw(true); }
+  /// What the mouse holds of the cell.
+  const std::optional<render::CellPick>& heldGrip() const { return grip_; }
+
   /// Redraws after something was set at clothView().
   void redrawCloth() { redraw(); }
 
@@ -104,6 +116,9 @@ class Viewport : public QWidget {
   void nodePulled(int node, const Eigen::Vector3d& hand);
   /// The mouse let it go. `stay`: it is to be held where it is.
   void nodeLetGo(int node, bool stay);
+  /// The mouse took a place of the cell, or moves it: where it is to go [m].
+  void gripPulled(const pliant::render::CellPick& grip, const Eigen::Vector3d& hand);
+  void gripLetGo();
   void tauChanged(double tau);
   void timeChanged(double time);
   /// A cloth, or how much there is of it, or no cloth any more.
@@ -126,6 +141,10 @@ class Viewport : public QWidget {
   void beginPull(const QMouseEvent& event);
   void movePull(const QPointF& place);
   void endPull(bool toggles);
+  void beginGrip(const QMouseEvent& event);
+  void moveGrip(const QPointF& place);
+  void endGrip();
+  std::optional<render::CellPick> gripAt(const QPointF& place) const;
   void refreshCursor(const QPointF& place);
   void showView(render::View& view);
   void attachToSurface();
@@ -136,6 +155,7 @@ class Viewport : public QWidget {
 
   render::MotionView motion_;
   render::ClothView cloth_;
+  render::CellView cell_;
   render::View* view_ = &motion_;  ///< what is shown
   std::unique_ptr<RenderSurface> surface_;
   QTimer timer_;
@@ -150,11 +170,13 @@ class Viewport : public QWidget {
   bool growing_ = false;
   bool followsNewest_ = true;  ///< while frames grow
   bool live_ = false;
-  std::vector<int> handheld_;  ///< nodes of the live cloth, the pulled one too
-  std::optional<int> pulled_;  ///< by the mouse
-  bool heldBefore_ = false;    ///< the pulled node, by hand
-  Eigen::Vector3d pullBegin_;  ///< where the pulled node was
-  QPointF pullFrom_;           ///< where the mouse was then
+  std::vector<int> handheld_;             ///< nodes of the live cloth, the pulled one too
+  std::optional<int> pulled_;             ///< by the mouse
+  bool heldBefore_ = false;               ///< the pulled node, by hand
+  Eigen::Vector3d pullBegin_;             ///< where the pulled node was
+  QPointF pullFrom_;                      ///< where the mouse was then
+  std::optional<render::CellPick> grip_;  ///< held by the mouse, as it was taken
+  Eigen::Vector3d gripOffset_;            ///< from the mouse's place to the grip's
   int nodeCount_ = 0;
   int dimension_ = 0;
   bool framed_ = true;         ///< the camera is where fit() or an axis view put it

@@ -133,7 +133,7 @@ void Viewport::endPull(bool toggles) {
 }
 
 void Viewport::refreshCursor(const QPointF& place) {
-  if (nodeAt(place))
+  if (showsCell() ? gripAt(place).has_value() : nodeAt(place).has_value())
     setCursor(Qt::OpenHandCursor);
   else
     unsetCursor();

@@ -1,0 +1,180 @@
+#include "ui/panels/cell_parameter_row.hpp"
+
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <cmath>
+#include <numbers>
+
+#include "ui/panels/icon.hpp"
+#include "ui/panels/parameter_slider.hpp"
+#include "ui/panels/value_field.hpp"
+#include "ui/panels/value_text.hpp"
+
+namespace pliant::panels {
+
+namespace {
+
+constexpr int endWidth = 56;
+constexpr double perDegree = std::numbers::pi / 180;
+
+/// How a quantity is written: its unit, how many SI units that is, and to which part of it a hand is exact.
+struct Unit {
+  QString name;
+  double size = 1;
+  double step = 0;  ///< 0: four digits
+};
+
+Unit unitOf(const base::ParameterSpec& spec) {
+  if (spec.kind == base::ValueKind::integer) return {{}, 1, 1};
+  if (spec.dimension == base::dimensions::length) return {QStringLiteral("mm"), 1e-3, 0.01};
+  if (spec.dimension == base::dimensions::angle) return {QStringLiteral("deg"), perDegree, 0.1};
+  return {QString::fromStdString(base::siUnit(spec.dimension)), 1, 0};
+}
+
+double roundedTo(double value, const Unit& unit) {
+  if (unit.step > 0) return std::round(value / unit.size / unit.step) * unit.step;
+  return QString::number(value, 'g', 4).toDouble();
+}
+
+QLabel* endLabel(QWidget* parent) {
+  auto* label = new QLabel(parent);
+  QFont small = label->font();
+  small.setPointSizeF(small.pointSizeF() * 0.9);
+  label->setFont(small);
+  label->setForegroundRole(QPalette::PlaceholderText);
+  return label;
+}
+
+double defaultOf(const base::ParameterSpec& spec) {
+  if (spec.defaultValue.is_number()) return spec.defaultValue.get<double>();
+  if (spec.defaultValue.is_string()) return base::parseQuantity(spec.defaultValue.get<std::string>(), spec.dimension);
+  return 1;
+}
+
+}  // namespace
+
+bool CellParameterRow::fits(const base::ParameterSpec& spec) {
+  return spec.kind == base::ValueKind::number || spec.kind == base::ValueKind::integer;
+}
+
+CellParameterRow::CellParameterRow(base::ParameterSpec spec, QWidget* parent)
+    : QWidget(parent), spec_(std::move(spec)) {
+  const QString name = humanName(spec_.key);
+  auto* title = new QLabel(this);
+  title->setText(
+      spec_.symbol.empty()
+          ? name
+          : QStringLiteral("%1&nbsp;&nbsp;<i>%2</i>").arg(name, QString::fromStdString(spec_.symbol).toHtmlEscaped()));
+  title->setToolTip(explanation(spec_));
+  field_ = new ValueField(this);
+  field_->setFixedWidth(88);
+  field_->setToolTip(tr("Double-click to type an exact value, such as \"4.8 mm\"."));
+  field_->setAccessibleName(tr("Value of %1").arg(name));
+  reset_ = new QToolButton(this);
+  reset_->setAutoRaise(true);
+  reset_->setIcon(icon(QStringLiteral("reset")));
+  reset_->setIconSize({16, 16});
+  reset_->setFocusPolicy(Qt::NoFocus);
+  reset_->setAccessibleName(tr("Reset %1").arg(name));
+  QSizePolicy keepsPlace = reset_->sizePolicy();
+  keepsPlace.setRetainSizeWhenHidden(true);
+  reset_->setSizePolicy(keepsPlace);
+  slider_ = new ParameterSlider(this);
+  slider_->setAccessibleName(name);
+  slider_->setToolTip(tr("Drag to see the material change. Arrow keys nudge, with Shift ten times finer."));
+  lowText_ = endLabel(this);
+  highText_ = endLabel(this);
+  lowText_->setFixedWidth(endWidth);
+  highText_->setFixedWidth(endWidth);
+  highText_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(16, 2, 8, 2);
+  grid->setHorizontalSpacing(4);
+  grid->setVerticalSpacing(0);
+  grid->setColumnStretch(0, 1);
+  grid->addWidget(title, 0, 0);
+  grid->addWidget(field_, 0, 1);
+  grid->addWidget(reset_, 0, 2);
+  auto* below = new QHBoxLayout;
+  below->setContentsMargins(0, 0, 8, 0);
+  below->setSpacing(4);
+  below->addWidget(lowText_);
+  below->addWidget(slider_, 1);
+  below->addWidget(highText_);
+  grid->addLayout(below, 1, 0, 1, 3);
+
+  if (spec_.dimension == base::dimensions::angle) {
+    low_ = std::max(-90 * perDegree, spec_.minimum);
+    high_ = std::min(90 * perDegree, spec_.maximum);
+  } else {
+    high_ = std::isfinite(spec_.maximum) ? spec_.maximum : 2 * std::abs(defaultOf(spec_));
+    low_ = std::isfinite(spec_.minimum) ? spec_.minimum : -high_;
+    if (spec_.exclusiveMinimum) low_ += 0.02 * (high_ - low_);  // the end itself is refused
+  }
+  connect(slider_, &ParameterSlider::dragged, this, [this](double value) {
+    field_->showTransient(shown(value));
+    Q_EMIT dragged(spec_.key, written(value));
+  });
+  connect(slider_, &ParameterSlider::dragCancelled, this, [this] {
+    setValue(value_, saved_);
+    Q_EMIT dragEnded();
+  });
+  connect(slider_, &ParameterSlider::committed, this, &CellParameterRow::commit);
+  connect(field_, &ValueField::typed, this, &CellParameterRow::type);
+  connect(reset_, &QToolButton::clicked, this, [this] {
+    base::Json exact = static_cast<int>(std::lround(saved_));
+    if (spec_.kind == base::ValueKind::number) exact = base::formatQuantityExactly(saved_, spec_.dimension);
+    Q_EMIT committed(spec_.key, exact, tr("Reset %1").arg(humanName(spec_.key)), false);
+  });
+  showBounds();
+}
+
+base::Json CellParameterRow::written(double value) const {
+  const Unit unit = unitOf(spec_);
+  if (spec_.kind == base::ValueKind::integer) return static_cast<int>(std::lround(value));
+  if (unit.name.isEmpty()) return roundedTo(value, unit);
+  return shown(value).toStdString();
+}
+
+QString CellParameterRow::shown(double value) const {
+  const Unit unit = unitOf(spec_);
+  const QString digits = QString::number(roundedTo(value, unit), 'g', 6);
+  return unit.name.isEmpty() ? digits : digits + ' ' + unit.name;
+}
+
+void CellParameterRow::setValue(double value, double saved) {
+  value_ = value;
+  saved_ = saved;
+  if (value > high_) {
+    high_ = std::min(spec_.maximum, 2 * value);
+    showBounds();
+  }
+  slider_->setReference(std::isfinite(saved) ? saved : value);
+  slider_->setRealValue(value);
+  const Unit unit = unitOf(spec_);
+  const QString exact = QString::number(value / unit.size, 'g', 12);
+  field_->setTexts(shown(value), unit.name.isEmpty() ? exact : exact + ' ' + unit.name);
+  const bool differs = std::isfinite(saved) && saved != value;
+  reset_->setVisible(differs);
+  if (differs) reset_->setToolTip(tr("Reset to %1, the value in the file").arg(shown(saved)));
+}
+
+void CellParameterRow::showBounds() {
+  slider_->setBounds(low_, high_);
+  lowText_->setText(shown(low_));
+  highText_->setText(shown(high_));
+}
+
+void CellParameterRow::commit(double value, bool nudge) {
+  Q_EMIT committed(spec_.key, written(value), tr("%1 to %2").arg(humanName(spec_.key), shown(value)), nudge);
+}
+
+void CellParameterRow::type(const QString& text) {
+  Q_EMIT committed(
+      spec_.key, parseText(text, field_->shownText(), spec_), tr("%1 to %2").arg(humanName(spec_.key), text), false);
+}
+
+}  // namespace pliant::panels
