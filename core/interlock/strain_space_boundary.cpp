@@ -20,20 +20,32 @@ constexpr double tryAbove = 0.02, countAbove = 1e-3;
 constexpr double enterAt = 0.8;
 constexpr int mostRounds = 4;
 
-EquilibriumOptions looserThan(EquilibriumOptions options) {
-  options.finalGap = std::max(options.finalGap, 1e-2);
-  return options;
-}
+/// A cell under stretch.
+class StretchedCell final : public BoundarySubject {
+ public:
+  explicit StretchedCell(const CellSolver& solver)
+      : solver_(solver), looser_(solver.contact().cell(), looserThan(solver.options())) {}
+
+  const CellContact& contact() const override { return solver_.contact(); }
+  CellState start(double perturbation, unsigned seed) const override {
+    return solver_.perturbed(restState(contact().cell()), perturbation, seed);
+  }
+  CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                        const base::ExecutionContext* context) const override {
+    return (loosely ? looser_ : solver_).solve(start, drive, context);
+  }
+  CellState relaxed(const CellState& state) const override { return solver_.relaxed(state); }
+
+ private:
+  const CellSolver& solver_;
+  const CellSolver looser_;
+};
 
 class BoundaryComputation {
  public:
-  BoundaryComputation(const CellSolver& solver, const BoundaryOptions& options, base::ExecutionContext& context,
+  BoundaryComputation(const BoundarySubject& subject, const BoundaryOptions& options, base::ExecutionContext& context,
                       BoundaryMemory* memory)
-      : solver_(solver),
-        looser_(solver.contact().cell(), looserThan(solver.options())),
-        options_(options),
-        context_(context),
-        memory_(memory) {}
+      : subject_(subject), options_(options), context_(context), memory_(memory) {}
 
   StrainSpaceBoundary run() {
     findMiddle();
@@ -56,16 +68,16 @@ class BoundaryComputation {
  private:
   /// The middle between the limits along each axis in turn.
   void findMiddle() {
-    CellState state = solver_.perturbed(restState(solver_.contact().cell()), options_.perturbation, options_.seed);
+    CellState state = subject_.start(options_.perturbation, options_.seed);
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d unit = Vector3d::Unit(axis);
-      const CellEquilibrium up = solver_.solve(state, rayDrive(unit), &context_);
-      const CellEquilibrium down = solver_.solve(state, rayDrive(-unit), &context_);
+      const CellEquilibrium up = subject_.solve(state, rayDrive(unit), false, &context_);
+      const CellEquilibrium down = subject_.solve(state, rayDrive(-unit), false, &context_);
       const double shift = 0.5 * (up.state.strain[axis] + down.state.strain[axis]) - state.strain[axis];
       if (std::abs(shift) < 1e-9) continue;
       StrainDrive drive = rayDrive(shift > 0 ? unit : Vector3d(-unit));
       drive.farthest = std::abs(shift);
-      state = solver_.relaxed(solver_.solve(state, drive, &context_).state);
+      state = subject_.relaxed(subject_.solve(state, drive, false, &context_).state);
     }
     boundary_.middleState = state;
     boundary_.middle = state.strain;
@@ -103,7 +115,7 @@ class BoundaryComputation {
       if (context_.cancelRequested()) return;
       boundary_.states[i] = recalled("ray " + std::to_string(i), [&] {
         const Vector3d& direction = boundary_.mesh.directions[i];
-        return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
+        return stateOf(subject_.solve(boundary_.middleState, rayDrive(direction), false, &context_), direction);
       });
       context_.reportProgress(0.6 * ++done / count);
     });
@@ -139,11 +151,11 @@ class BoundaryComputation {
 
   /// Whether all elements are placed and turned nearly the same, as in states of one way to fold.
   bool foldsAlike(const CellState& first, const CellState& second) const {
-    const double near = solver_.contact().cell().smallestRadius();
+    const double near = subject_.contact().cell().smallestRadius();
     for (std::size_t i = 0; i < first.rotations.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const double turn = Eigen::AngleAxisd(first.rotations[i].transpose() * second.rotations[i]).angle();
-      const double reach = solver_.contact().partsOf(static_cast<int>(i)).reach();
+      const double reach = subject_.contact().partsOf(static_cast<int>(i)).reach();
       if ((first.positions.col(column) - second.positions.col(column)).norm() + turn * reach > near) return false;
     }
     return true;
@@ -155,13 +167,13 @@ class BoundaryComputation {
       const Vector3d path = target - from.strain;
       StrainDrive drive = rayDrive(path.normalized());
       drive.farthest = path.norm();
-      const CellEquilibrium rest = looser_.solve(from, drive, &context_);
+      const CellEquilibrium rest = subject_.solve(from, drive, true, &context_);
       state = rest.state;
       return rest.converged() && rest.kind == RestKind::reached;
     };
     CellState inside, middle;
     if (!moveTo(neighbour.cell, boundary_.middle + enterAt * own.distance * direction, inside)) return own;
-    const CellEquilibrium beyond = looser_.solve(inside, rayDrive(direction), &context_);
+    const CellEquilibrium beyond = subject_.solve(inside, rayDrive(direction), true, &context_);
     const double reached = direction.dot(beyond.state.strain - boundary_.middle);
     if (!beyond.converged() || reached <= own.distance * (1 + countAbove)) return own;
     BoundaryState result = own;
@@ -170,7 +182,7 @@ class BoundaryComputation {
       result.seesBeyond = true;
       return result;
     }
-    const CellEquilibrium limit = solver_.solve(beyond.state, rayDrive(direction), &context_);
+    const CellEquilibrium limit = subject_.solve(beyond.state, rayDrive(direction), false, &context_);
     if (!limit.converged()) return own;
     result = stateOf(limit, direction);
     result.iterations += own.iterations + beyond.iterations;
@@ -229,8 +241,7 @@ class BoundaryComputation {
     return 0.5 * std::max(errors_[a], errors_[b]);
   }
 
-  const CellSolver& solver_;
-  const CellSolver looser_;  ///< for tests, with larger gaps
+  const BoundarySubject& subject_;
   const BoundaryOptions& options_;
   base::ExecutionContext& context_;
   BoundaryMemory* memory_;
@@ -283,9 +294,19 @@ Vector3d greenStrain(const Vector3d& strain) {
   return {green(0, 0), green(1, 1), green(0, 1)};
 }
 
+EquilibriumOptions looserThan(EquilibriumOptions options) {
+  options.finalGap = std::max(options.finalGap, 1e-2);
+  return options;
+}
+
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
                                     base::ExecutionContext& context, BoundaryMemory* memory) {
-  return BoundaryComputation(solver, options, context, memory).run();
+  return BoundaryComputation(StretchedCell(solver), options, context, memory).run();
+}
+
+StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
+                                    base::ExecutionContext& context, BoundaryMemory* memory) {
+  return BoundaryComputation(subject, options, context, memory).run();
 }
 
 }  // namespace pliant::interlock

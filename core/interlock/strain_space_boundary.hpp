@@ -47,6 +47,19 @@ class BoundaryMemory {
   virtual void keep(const std::string& name, const BoundaryState& state) = 0;
 };
 
+/// What is deformed: a cell, or a patch that is bent. Every function may be called from any thread.
+class BoundarySubject {
+ public:
+  virtual ~BoundarySubject() = default;
+  virtual const CellContact& contact() const = 0;
+  /// At rest, but for a perturbation as in LimitOptions.
+  virtual CellState start(double perturbation, unsigned seed) const = 0;
+  /// As CellSolver::solve; a limit that is none has the kind RestKind::unlimited. `loosely`: with larger gaps.
+  virtual CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                                const base::ExecutionContext* context) const = 0;
+  virtual CellState relaxed(const CellState& state) const = 0;
+};
+
 /// The limits of in-plane deformation of a cell as a closed surface in the strain coordinates (mean, deviator, shear)
 /// of CellState (thesis 4.3.3): the distance along rays from the middle of the set, on the triangles of a sphere. On
 /// its ray each state is connected with the middle through states without overlap, so the set contains the star of
@@ -77,9 +90,16 @@ struct StrainSpaceBoundary {
 /// Green strain (E_x, E_y, E_xy) of strain coordinates, E = (FᵀF - I)/2.
 Eigen::Vector3d greenStrain(const Eigen::Vector3d& strain);
 
+/// The options of a solver whose gaps matter little.
+EquilibriumOptions looserThan(EquilibriumOptions options);
+
 /// Computed in parallel; the same bytes for any number of threads. After cancellation states not reached have the
 /// termination `cancelled`.
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
+                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
+
+/// The same of anything else.
+StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
                                     base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
 
 }  // namespace pliant::interlock
