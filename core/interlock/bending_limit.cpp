@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <numbers>
 
 #include "core/interlock/paraboloid.hpp"
@@ -50,12 +51,34 @@ BendingLimit judged(const PatchSolver& solver, double angle, CellEquilibrium equ
   return limit;
 }
 
+CellEquilibrium farthestBend(const PatchSolver& solver, const CellState& start, const StrainDrive& drive,
+                             const BendingOptions& options, const base::ExecutionContext* context) {
+  CellEquilibrium best;
+  double farthest = 0;
+  for (int trial = 0; trial < std::max(1, options.trials); ++trial) {
+    const unsigned seed = options.seed + static_cast<unsigned>(trial);
+    const CellState from = options.perturbation > 0 ? solver.perturbed(start, options.perturbation, seed) : start;
+    CellEquilibrium next = solver.bendInSteps(from, drive, options.increment, context);
+    const bool folds = next.converged() && judged(solver, 0, next).kind == BendingKind::folded;
+    const double reached =
+        folds ? std::numeric_limits<double>::infinity() : drive.load.dot(next.state.strain - start.strain);
+    next.iterations += best.iterations;
+    if (trial == 0 || (next.converged() && (reached > farthest || !best.converged()))) {
+      best = std::move(next);
+      farthest = reached;
+    } else {
+      best.iterations = next.iterations;
+    }
+    if (folds || next.termination == base::TerminationType::cancelled) break;
+  }
+  return best;
+}
+
 BendingLimit bendingLimit(const PatchSolver& solver, double angle, bool down, const BendingOptions& options,
                           const base::ExecutionContext* context) {
-  CellState start = restState(solver.patch());
-  if (options.perturbation > 0) start = solver.perturbed(start, options.perturbation, options.seed);
-  const StrainDrive drive = uniaxialDrive(angle, down, options.lateral);
-  return judged(solver, angle, solver.bendInSteps(start, drive, options.increment, context));
+  const CellState start = solver.relaxed(restState(solver.patch()));
+  return judged(
+      solver, angle, farthestBend(solver, start, uniaxialDrive(angle, down, options.lateral), options, context));
 }
 
 std::vector<BendingLimits> bendingLimits(const PatchSolver& solver, const std::vector<double>& angles,

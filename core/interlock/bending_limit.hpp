@@ -16,9 +16,12 @@ enum class BendingKind {
 struct BendingOptions {
   /// Across the direction: the curvature there is free (with the direction still a principal one or not) or stays 0.
   Lateral lateral = Lateral::principal;
-  double increment = 4;        ///< see PatchSolver::bendInSteps
-  double perturbation = 0.01;  ///< of the state at rest, see LimitOptions
+  double increment = 4;       ///< see PatchSolver::bendInSteps
+  double perturbation = 0.3;  ///< of elements centred at rest, see LimitOptions
   unsigned seed = 1;
+  /// Tries with seeds that follow one another, of which the farthest counts: a patch may bend in ways that lock earlier
+  /// and later, as where its elements turn one way or the other.
+  int trials = 3;
 };
 
 /// The largest curvature of a patch in one direction (thesis 4.3.3, 4.3.4). It holds for this patch: limits of double
@@ -41,6 +44,10 @@ Eigen::MatrixXi neighboursAtRest(const UnitCell& patch);
 
 /// What `equilibrium`, reached by PatchSolver::bend, says about bending in that direction.
 BendingLimit judged(const PatchSolver& solver, double angle, CellEquilibrium equilibrium);
+
+/// The farthest of all trials, each from `start` perturbed. One that folds is farther than any that locks.
+CellEquilibrium farthestBend(const PatchSolver& solver, const CellState& start, const StrainDrive& drive,
+                             const BendingOptions& options, const base::ExecutionContext* context);
 
 /// Bends up (z rises from the middle: the curvature is positive), or down, from rest.
 BendingLimit bendingLimit(const PatchSolver& solver, double angle, bool down, const BendingOptions& options = {},

@@ -28,7 +28,8 @@ StrainDrive uniaxialDrive(double angle, bool compress, Lateral lateral, double r
   if (lateral == Lateral::biaxial) drive.directions = principal + ratio * across;
   if (lateral == Lateral::principal) {
     drive.directions.resize(3, 2);
-    drive.directions << principal, across;
+    drive.directions.col(0) = principal;
+    drive.directions.col(1) = across;
   }
   return drive;
 }

@@ -1,6 +1,8 @@
 #include "core/interlock/patch_equilibrium.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/interlock/patch_search.hpp"
@@ -11,6 +13,8 @@ namespace {
 
 /// Newton's decrement over the barrier's weight below which elements count as centred between increments.
 constexpr double centredBelow = 0.1;
+/// What a patch that was locked, and then centred, must gain to be tried again, over what it had.
+constexpr double leastProgress = 0.01;
 
 }  // namespace
 
@@ -85,23 +89,28 @@ CellEquilibrium PatchSolver::bendInSteps(const CellState& start, const StrainDri
       loose.finalGap = std::max(loose.firstGap, loose.finalGap);
       StrainDrive still;
       still.directions.resize(3, 0);
+      const auto travelled = [&] { return drive.load.dot(state.strain - start.strain); };
+      double lockedAt = -std::numeric_limits<double>::infinity();
       while (true) {
+        state = PatchSearch(*this, state, still, context).relax(loose, centredBelow);
         const double outermost = state.positions.topRows<2>().colwise().norm().maxCoeff();
         const double step = drive.load.norm() * 2 * increment * radius_ / (outermost * outermost);
         if (remaining() <= step) break;
         rest.farthest = step;
         CellEquilibrium next = PatchSearch(*this, state, rest, context).run(loose);
         iterations += next.iterations;
-        if (!next.converged() || next.kind != RestKind::reached) {
-          if (next.converged() && next.kind == RestKind::locked) {
-            state = next.state;
-            options.firstGap = std::min(options.firstGap, 0.01);  // about what is left
-            break;
-          }
+        if (!next.converged() || next.kind == RestKind::unlimited) {
           next.iterations = iterations;
           return next;
         }
-        state = PatchSearch(*this, next.state, still, context).relax(loose, centredBelow);
+        state = next.state;
+        if (next.kind == RestKind::reached) continue;
+        // Centred once more it may go on, if it only was jammed.
+        if (travelled() <= lockedAt + leastProgress * std::abs(lockedAt)) {
+          options.firstGap = std::min(options.firstGap, 0.01);  // about what is left
+          break;
+        }
+        lockedAt = travelled();
       }
     }
     remaining();
@@ -119,7 +128,22 @@ CellState PatchSolver::relaxed(const CellState& state) const {
 
 CellState PatchSolver::perturbed(const CellState& state, double amplitude, unsigned seed) const {
   const PatchSearch search(*this, state, StrainDrive{}, nullptr);
-  return perturbedState(contact_, state, radius_, amplitude, seed, [&](const Eigen::VectorXd& velocity, double step) {
+  return perturbedState(contact_, state, radius_, amplitude, seed, [&](Eigen::VectorXd velocity, double step) {
+    // Neither the mean origin moves nor the patch as a whole turns about its axis.
+    const auto count = static_cast<Eigen::Index>(patch().elements.size());
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero(), place;
+    double moment = 0, inertia = 0;
+    for (Eigen::Index i = 0; i < count; ++i) mean += velocity.segment<2>(6 * i) / static_cast<double>(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      velocity.segment<2>(6 * i) -= mean;
+      place = patch().elements[i].position.head<2>();
+      moment += place.x() * velocity[6 * i + 1] - place.y() * velocity[6 * i];
+      inertia += place.squaredNorm();
+    }
+    for (Eigen::Index i = 0; i < count; ++i) {
+      place = patch().elements[i].position.head<2>();
+      velocity.segment<2>(6 * i) -= moment / inertia * Eigen::Vector2d(-place.y(), place.x());
+    }
     return search.advanced(state, velocity, step);
   });
 }

@@ -56,9 +56,10 @@ class PatchSolver {
   CellEquilibrium bend(const CellState& start, const StrainDrive& drive,
                        const base::ExecutionContext* context = nullptr) const;
 
-  /// The same by increments, so that elements slide out of each other's way before they jam: the curvature moves as far
-  /// as would lift the outermost element by `increment` smallest radii [0: at once], then the barrier alone centres the
-  /// elements in the room they have; until contact holds the drive, which is then followed up to the final gap.
+  /// The same by increments, so that elements slide out of each other's way before they jam: first and after each the
+  /// barrier alone centres the elements in the room they have; the curvature moves as far at a time as would lift the
+  /// outermost element by `increment` smallest radii [0: at once, without centring]. Where contact holds the drive even
+  /// after elements have been centred again it is followed up to the final gap.
   CellEquilibrium bendInSteps(const CellState& start, const StrainDrive& drive, double increment,
                               const base::ExecutionContext* context = nullptr) const;
 

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/interlock/cell_symmetry.hpp"
 #include "core/math/parallel.hpp"
 
 namespace pliant::interlock {
@@ -25,11 +24,34 @@ constexpr int mostRounds = 4;
 constexpr int checkedRays = 12;
 constexpr double symmetricBelow = 1e-3;
 
-std::vector<CellSymmetry> symmetriesFor(const UnitCell& cell, const BoundaryOptions& options) {
-  auto symmetries = symmetriesOf(cell);
-  if (!options.useSymmetries) symmetries.resize(1);
+std::vector<CellSymmetry> symmetriesFor(const BoundarySubject& subject, const BoundaryOptions& options) {
+  std::vector<CellSymmetry> symmetries;
+  if (options.useSymmetries) symmetries = subject.symmetries();
+  if (symmetries.empty()) symmetries.push_back({Eigen::Matrix3d::Identity(), Vector3d::Zero(), {}});
   return symmetries;
 }
+
+/// A cell under stretch.
+class StretchedCell final : public BoundarySubject {
+ public:
+  explicit StretchedCell(const CellSolver& solver)
+      : solver_(solver), looser_(solver.contact().cell(), withLooserGaps(solver.options())) {}
+
+  const CellContact& contact() const override { return solver_.contact(); }
+  CellState start(double perturbation, unsigned seed) const override {
+    return solver_.perturbed(restState(contact().cell()), perturbation, seed);
+  }
+  CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                        const base::ExecutionContext* context) const override {
+    return (loosely ? looser_ : solver_).solve(start, drive, context);
+  }
+  CellState relaxed(const CellState& state) const override { return solver_.relaxed(state); }
+  std::vector<CellSymmetry> symmetries() const override { return symmetriesOf(contact().cell()); }
+
+ private:
+  const CellSolver& solver_;
+  const CellSolver looser_;
+};
 
 /// Under which a limit straight from the middle is kept.
 std::string rayName(int ray) { return "ray " + std::to_string(ray); }
@@ -37,14 +59,13 @@ std::string checkName(int ray) { return "check " + std::to_string(ray); }
 
 class BoundaryComputation {
  public:
-  BoundaryComputation(const CellSolver& solver, const BoundaryOptions& options, base::ExecutionContext& context,
+  BoundaryComputation(const BoundarySubject& subject, const BoundaryOptions& options, base::ExecutionContext& context,
                       BoundaryMemory* memory)
-      : solver_(solver),
-        looser_(solver.contact().cell(), withLooserGaps(solver.options())),
+      : subject_(subject),
         options_(options),
         context_(context),
         memory_(memory),
-        symmetries_(symmetriesFor(solver.contact().cell(), options)) {}
+        symmetries_(symmetriesFor(subject, options)) {}
 
   TerminationType runRays(const base::Shard& shard) {
     findMiddle();
@@ -90,20 +111,20 @@ class BoundaryComputation {
  private:
   /// The middle between the limits along each axis in turn. By symmetry it is 0 along the others.
   void findMiddle() {
-    CellState state = solver_.perturbed(restState(solver_.contact().cell()), options_.perturbation, options_.seed);
+    CellState state = subject_.start(options_.perturbation, options_.seed);
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d unit = Vector3d::Unit(axis);
       if (std::any_of(symmetries_.begin(), symmetries_.end(), [&](const CellSymmetry& symmetry) {
             return !(symmetry.strainMap() * unit).isApprox(unit, 1e-9);
           }))
         continue;
-      const CellEquilibrium up = solver_.solve(state, rayDrive(unit), &context_);
-      const CellEquilibrium down = solver_.solve(state, rayDrive(-unit), &context_);
+      const CellEquilibrium up = subject_.solve(state, rayDrive(unit), false, &context_);
+      const CellEquilibrium down = subject_.solve(state, rayDrive(-unit), false, &context_);
       const double shift = 0.5 * (up.state.strain[axis] + down.state.strain[axis]) - state.strain[axis];
       if (std::abs(shift) < 1e-9) continue;
       StrainDrive drive = rayDrive(shift > 0 ? unit : Vector3d(-unit));
       drive.farthest = std::abs(shift);
-      state = solver_.relaxed(solver_.solve(state, drive, &context_).state);
+      state = subject_.relaxed(subject_.solve(state, drive, false, &context_).state);
     }
     boundary_.middleState = state;
     boundary_.middle = state.strain;
@@ -147,7 +168,7 @@ class BoundaryComputation {
 
   /// The state of one direction as that of its representative, or the other way round.
   BoundaryState moved(BoundaryState state, const CellSymmetry& symmetry) const {
-    if (!state.cell.rotations.empty()) state.cell = symmetry.mapped(solver_.contact().cell(), state.cell);
+    if (!state.cell.rotations.empty()) state.cell = symmetry.mapped(subject_.contact().cell(), state.cell);
     return state;
   }
   const CellSymmetry& inverse(const CellSymmetry& symmetry) const {
@@ -197,7 +218,7 @@ class BoundaryComputation {
 
   BoundaryState straight(int ray) const {
     const Vector3d& direction = boundary_.mesh.directions[ray];
-    return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
+    return stateOf(subject_.solve(boundary_.middleState, rayDrive(direction), false, &context_), direction);
   }
 
   /// The limits straight from the middle, from ray `first` on.
@@ -226,8 +247,7 @@ class BoundaryComputation {
     std::atomic<bool> changed{false};
     math::parallelFor(static_cast<int>(before.size()), [&](int i) {
       const int j = farthest[i];
-      if (context_.cancelRequested() || !isComputed(i) ||
-          before[j].distance <= before[i].distance * (1 + tryAbove))
+      if (context_.cancelRequested() || !isComputed(i) || before[j].distance <= before[i].distance * (1 + tryAbove))
         return;
       if (before[j].distance == tried_[i] || foldsAlike(before[i].cell, before[j].cell)) return;
       tried_[i] = before[j].distance;
@@ -241,11 +261,11 @@ class BoundaryComputation {
 
   /// Whether all elements are placed and turned nearly the same, as in states of one way to fold.
   bool foldsAlike(const CellState& first, const CellState& second) const {
-    const double near = solver_.contact().cell().smallestRadius();
+    const double near = subject_.contact().cell().smallestRadius();
     for (std::size_t i = 0; i < first.rotations.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const double turn = Eigen::AngleAxisd(first.rotations[i].transpose() * second.rotations[i]).angle();
-      const double reach = solver_.contact().partsOf(static_cast<int>(i)).reach();
+      const double reach = subject_.contact().partsOf(static_cast<int>(i)).reach();
       if ((first.positions.col(column) - second.positions.col(column)).norm() + turn * reach > near) return false;
     }
     return true;
@@ -257,13 +277,13 @@ class BoundaryComputation {
       const Vector3d path = target - from.strain;
       StrainDrive drive = rayDrive(path.normalized());
       drive.farthest = path.norm();
-      const CellEquilibrium rest = looser_.solve(from, drive, &context_);
+      const CellEquilibrium rest = subject_.solve(from, drive, true, &context_);
       state = rest.state;
       return rest.converged() && rest.kind == RestKind::reached;
     };
     CellState inside, middle;
     if (!moveTo(neighbour.cell, boundary_.middle + enterAt * own.distance * direction, inside)) return own;
-    const CellEquilibrium beyond = looser_.solve(inside, rayDrive(direction), &context_);
+    const CellEquilibrium beyond = subject_.solve(inside, rayDrive(direction), true, &context_);
     const double reached = direction.dot(beyond.state.strain - boundary_.middle);
     if (!beyond.converged() || reached <= own.distance * (1 + countAbove)) return own;
     BoundaryState result = own;
@@ -272,7 +292,7 @@ class BoundaryComputation {
       result.seesBeyond = true;
       return result;
     }
-    const CellEquilibrium limit = solver_.solve(beyond.state, rayDrive(direction), &context_);
+    const CellEquilibrium limit = subject_.solve(beyond.state, rayDrive(direction), false, &context_);
     if (!limit.converged()) return own;
     result = stateOf(limit, direction);
     result.iterations += own.iterations + beyond.iterations;
@@ -366,8 +386,7 @@ class BoundaryComputation {
     return 0.5 * std::max(errors_[a], errors_[b]);
   }
 
-  const CellSolver& solver_;
-  const CellSolver looser_;  ///< for tests, with larger gaps
+  const BoundarySubject& subject_;
   const BoundaryOptions& options_;
   base::ExecutionContext& context_;
   BoundaryMemory* memory_;
@@ -426,17 +445,22 @@ Vector3d greenStrain(const Vector3d& strain) {
 
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
                                     base::ExecutionContext& context, BoundaryMemory* memory) {
-  return BoundaryComputation(solver, options, context, memory).run();
+  return BoundaryComputation(StretchedCell(solver), options, context, memory).run();
+}
+
+StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
+                                    base::ExecutionContext& context, BoundaryMemory* memory) {
+  return BoundaryComputation(subject, options, context, memory).run();
 }
 
 TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
                             base::ExecutionContext& context, BoundaryMemory& memory) {
-  return BoundaryComputation(solver, options, context, &memory).runRays(shard);
+  return BoundaryComputation(StretchedCell(solver), options, context, &memory).runRays(shard);
 }
 
 std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory) {
   base::ExecutionContext context;
-  return BoundaryComputation(solver, options, context, &memory).missingRays();
+  return BoundaryComputation(StretchedCell(solver), options, context, &memory).missingRays();
 }
 
 }  // namespace pliant::interlock

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/base/shard.hpp"
+#include "core/interlock/cell_symmetry.hpp"
 #include "core/interlock/deformation_test.hpp"
 #include "core/interlock/sphere_mesh.hpp"
 
@@ -49,6 +50,21 @@ class BoundaryMemory {
   /// False if there is nothing under this name.
   virtual bool recall(const std::string& name, BoundaryState& state) = 0;
   virtual void keep(const std::string& name, const BoundaryState& state) = 0;
+};
+
+/// What is deformed: a cell, or a patch that is bent. Every function may be called from any thread.
+class BoundarySubject {
+ public:
+  virtual ~BoundarySubject() = default;
+  virtual const CellContact& contact() const = 0;
+  /// At rest, but for a perturbation as in LimitOptions.
+  virtual CellState start(double perturbation, unsigned seed) const = 0;
+  /// As CellSolver::solve; a limit that is none has the kind RestKind::unlimited. `loosely`: with larger gaps.
+  virtual CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                                const base::ExecutionContext* context) const = 0;
+  virtual CellState relaxed(const CellState& state) const = 0;
+  /// Of its limits; none if they are not known.
+  virtual std::vector<CellSymmetry> symmetries() const { return {}; }
 };
 
 /// The limits of in-plane deformation of a cell as a closed surface in the strain coordinates (mean, deviator, shear)
@@ -96,5 +112,8 @@ base::TerminationType computeRays(const CellSolver& solver, const BoundaryOption
                                   base::ExecutionContext& context, BoundaryMemory& memory);
 /// The numbers of rays that `memory` does not know and symmetries do not make.
 std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory);
+/// The same of anything else.
+StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
+                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
 
 }  // namespace pliant::interlock

@@ -61,7 +61,7 @@ interlock::UnitCell buildCell(const Scene& scene, const std::string& name) {
 DraftCell draftCell(const Scene& scene, std::size_t index) {
   const Json& entry = scene.normalized()["interlocking_cells"][index];
   DraftCell draft;
-  draft.cell = cellFrom(entry);
+  draft.cell = cellFrom(entry, childPointer("/interlocking_cells", index));
   draft.cell.name = entry["name"];
   draft.supercell = supercell(draft.cell, entry["supercell"][0], entry["supercell"][1]);
   return draft;

@@ -1,4 +1,5 @@
 #include "core/base/error.hpp"
+#include "core/scene/bending_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/interlock_studies.hpp"
@@ -58,7 +59,12 @@ StudyRegistry::StudyRegistry()
                  {"cell_test", makeCellTestStudy},
                  {"free_travel", makeFreeTravelStudy},
                  {"stretch_grid", makeStretchGridStudy},
-                 {"stretch_boundary", makeStretchBoundaryStudy}} {}
+                 {"stretch_boundary", makeStretchBoundaryStudy},
+                 {"bending_test", makeBendingStudy},
+                 {"curvature_limits", makeBendingStudy},
+                 {"bending_size", makeBendingStudy},
+                 {"bending_boundary", makeBendingStudy},
+                 {"gravity_bending", makeBendingStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;

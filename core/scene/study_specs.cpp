@@ -1,5 +1,6 @@
 #include "core/scene/study_specs.hpp"
 
+#include "core/scene/bending_specs.hpp"
 #include "core/scene/cloth_specs.hpp"
 #include "core/scene/interlock_specs.hpp"
 #include "core/scene/spec_builder.hpp"
@@ -174,6 +175,7 @@ const std::vector<ParameterSpec>& studySpecs() {
              maximumPeriods(), periodTolerance()})};
     for (ParameterSpec& cloth : clothStudySpecs()) all.push_back(std::move(cloth));
     for (ParameterSpec& interlock : interlockStudySpecs()) all.push_back(std::move(interlock));
+    for (ParameterSpec& bending : bendingStudySpecs()) all.push_back(std::move(bending));
     return all;
   }();
   return specs;

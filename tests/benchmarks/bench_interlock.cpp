@@ -7,6 +7,7 @@
 #include "core/interlock/element_families.hpp"
 #include "core/interlock/strain_space_boundary.hpp"
 #include "core/math/parallel.hpp"
+#include "tests/benchmarks/bench_patches.hpp"
 
 namespace pliant::bench {
 
@@ -56,6 +57,7 @@ Json measureInterlock() {
     for (const interlock::UnitCell& cell :
          {interlock::threefold(), interlock::torusKnot(), interlock::scaleMail(), interlock::fourInOne()})
       rows.push_back(measureBoundary(cell, threads));
+  for (Json& row : measurePatches()) rows.push_back(std::move(row));
   return rows;
 }
 

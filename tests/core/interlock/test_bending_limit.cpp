@@ -48,6 +48,12 @@ UnitCell nineThickKnots() {
   return cutPatch(torusKnot(knot), outline);
 }
 
+BendingOptions oneTrial() {
+  BendingOptions options;
+  options.trials = 1;
+  return options;
+}
+
 EquilibriumOptions quick() {
   EquilibriumOptions options;
   options.finalGap = 1e-3;
@@ -69,7 +75,7 @@ class TestBendingLimit : public QObject {
     const UnitCell patch = threeRings(ball, 9.1e-3);
     checkShape(patch.shapes[0]);
     const PatchSolver solver(patch);
-    BendingOptions options;
+    BendingOptions options = oneTrial();
     options.lateral = Lateral::held;
     for (const bool down : {false, true}) {
       const BendingLimit limit = bendingLimit(solver, 0, down, options);
@@ -83,7 +89,7 @@ class TestBendingLimit : public QObject {
 
   void looseChainFoldsWithoutLimit() {
     const PatchSolver solver(threeRings(0, 7e-3));
-    const BendingLimit limit = bendingLimit(solver, 0, false);
+    const BendingLimit limit = bendingLimit(solver, 0, false, oneTrial());
     QVERIFY(limit.equilibrium.converged());
     QVERIFY(limit.equilibrium.kind == RestKind::unlimited && limit.kind == BendingKind::folded);
     QVERIFY(limit.steepest > steepestSlope);
@@ -94,7 +100,7 @@ class TestBendingLimit : public QObject {
   void limitsHaveTheSymmetriesOfTheirElements() {
     base::ExecutionContext context;
     const PatchSolver scales(sevenScales(), quick());
-    const auto of = bendingLimits(scales, {pi / 6, pi / 2}, {}, context);
+    const auto of = bendingLimits(scales, {pi / 6, pi / 2}, oneTrial(), context);
     for (const auto limit : {&BendingLimits::up, &BendingLimits::down}) {
       const BendingLimit &first = of[0].*limit, &second = of[1].*limit;
       QVERIFY(first.kind == BendingKind::locked && second.kind == BendingKind::locked);
@@ -105,7 +111,7 @@ class TestBendingLimit : public QObject {
     QVERIFY(of[0].up.curvature < -0.5 * of[0].down.curvature);
 
     const PatchSolver knots(nineThickKnots(), quick());
-    const auto both = bendingLimits(knots, {0}, {}, context);
+    const auto both = bendingLimits(knots, {0}, oneTrial(), context);
     QVERIFY(both[0].up.kind == BendingKind::locked && both[0].down.kind == BendingKind::locked);
     QVERIFY(std::abs(both[0].up.curvature / both[0].down.curvature + 1) < 5e-3);
     for (const BendingLimit& limit : {of[0].up, of[0].down}) {
@@ -114,10 +120,30 @@ class TestBendingLimit : public QObject {
     }
   }
 
+  /// Threefold elements may turn either way as they are bent to a dome, and lock earlier one way than the other: of
+  /// some trials the farthest is the same up and down, as it must be, since turning the patch over about the middle of
+  /// a ring maps it to itself.
+  void trialsFindTheFarthestBranch() {
+    PatchOutline outline;
+    outline.radius = 14e-3;
+    const PatchSolver solver(cutPatch(threefold({5.2e-3, 1.6e-3, 5e-3, 50 * pi / 180, 13.5e-3}), outline), quick());
+    const CellState start = solver.relaxed(restState(solver.patch()));
+    BendingOptions options;
+    options.trials = 8;
+    std::array<double, 2> limits{};
+    for (int i = 0; i < 2; ++i) {
+      const CellEquilibrium rest =
+          farthestBend(solver, start, rayDrive(Vector3d(i == 0 ? 1 : -1, 0, 0)), options, nullptr);
+      QVERIFY2(rest.converged(), rest.message.c_str());
+      limits[i] = std::abs(rest.state.strain[0]);
+    }
+    QVERIFY2(std::abs(limits[0] / limits[1] - 1) < 5e-3, qPrintable(QString("%1 %2").arg(limits[0]).arg(limits[1])));
+  }
+
   /// On the paraboloid, not drifting off its apex nor turning about its axis.
   void patchesStayWhereTheyBelong() {
     const PatchSolver solver(sevenScales(), quick());
-    const BendingLimit limit = bendingLimit(solver, 0.4, false);
+    const BendingLimit limit = bendingLimit(solver, 0.4, false, oneTrial());
     const CellState& state = limit.equilibrium.state;
     const auto [mean, deviator, twist] = std::array{state.strain[0], state.strain[1], state.strain[2]};
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -132,9 +158,8 @@ class TestBendingLimit : public QObject {
       sum += place.head<2>();
       turn += rest.x() * place.y() - rest.y() * place.x();
     }
-    // What the perturbation at the start did to them stays.
-    QVERIFY(sum.norm() < 0.1 * solver.radius());
-    QVERIFY(std::abs(turn) < 0.1 * solver.radius() * solver.extent());
+    QVERIFY(sum.norm() < 1e-9 * solver.radius());
+    QVERIFY(std::abs(turn) < 1e-9 * solver.radius() * solver.extent());
     // Principal directions are those asked for.
     QVERIFY(std::abs(std::sin(0.8) * deviator - std::cos(0.8) * twist) < 1e-9 * std::abs(mean));
   }
@@ -145,7 +170,7 @@ class TestBendingLimit : public QObject {
     for (const int threads : {1, 2}) {
       math::setThreadCount(threads);
       base::ExecutionContext context;
-      runs.push_back(bendingLimits(solver, {0.1, 0.7}, {}, context));
+      runs.push_back(bendingLimits(solver, {0.1, 0.7}, oneTrial(), context));
       QCOMPARE(context.progress(), 1.0);
     }
     math::setThreadCount(0);
@@ -155,7 +180,7 @@ class TestBendingLimit : public QObject {
     }
     base::ExecutionContext cancelled;
     cancelled.requestCancel();
-    QVERIFY(bendingLimit(solver, 0, false, {}, &cancelled).kind == BendingKind::unsettled);
+    QVERIFY(bendingLimit(solver, 0, false, oneTrial(), &cancelled).kind == BendingKind::unsettled);
   }
 };
 
