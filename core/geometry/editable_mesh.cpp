@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -139,7 +140,7 @@ void EditableMesh::split(const Edge& edge, const Vector3d& at) {
   }
 }
 
-void EditableMesh::collapseShortEdges(const BodyDistance& body, double length) {
+void EditableMesh::collapseShortEdges(const BodyDistance& body, double length, bool always) {
   std::vector<std::pair<double, Edge>> shortEdges;
   for (const Edge& edge : edges())
     if (const double own = (points_[edge[0]] - points_[edge[1]]).norm(); own < length)
@@ -155,7 +156,7 @@ void EditableMesh::collapseShortEdges(const BodyDistance& body, double length) {
     // Else two sheets would become one, or an opposite corner would be left with two triangles.
     if (common.size() != 2 || around_[common[0]].size() < 4 || around_[common[1]].size() < 4) continue;
     const Vector3d to = ontoSurface(body, 0.5 * (points_[a] + points_[b]), 1e-3 * length);
-    if (staysUpright(a, to, b) && staysUpright(b, to, a)) collapse(edge, to);
+    if (always || (staysUpright(a, to, b) && staysUpright(b, to, a))) collapse(edge, to);
   }
 }
 
@@ -248,8 +249,12 @@ SurfaceFit EditableMesh::splitToTolerance(const BodyDistance& body, double toler
     std::sort(order.begin(), order.end());
     for (const auto& [length, edge] : order) {
       const Vector3d at = ontoSurface(body, 0.5 * (points_[edge[0]] + points_[edge[1]]), exact);
+      double nearest = std::numeric_limits<double>::infinity();  // of the corners opposite: along creases two points
+                                                                 // may go to one place
+      for (const int t : trianglesAt(edge)) nearest = std::min(nearest, (at - points_[oppositeCorner(t, edge)]).norm());
       // Else both ends of the edge are on walls that face each other, and so would be those of a half.
-      if (std::max((at - points_[edge[0]]).norm(), (at - points_[edge[1]]).norm()) < -0.85 * length) {
+      if (std::max((at - points_[edge[0]]).norm(), (at - points_[edge[1]]).norm()) < -0.85 * length &&
+          nearest > -0.05 * length) {
         split(edge, at);
         continue;
       }

@@ -12,8 +12,9 @@ class EditableMesh {
   /// Points of no triangle are left out.
   explicit EditableMesh(const SurfaceMesh& mesh);
 
-  /// Edges shorter than `length` [m] become a point, unless a triangle would turn over.
-  void collapseShortEdges(const BodyDistance& body, double length);
+  /// Edges shorter than `length` [m] become a point, unless a triangle would turn over and it is not to be done
+  /// `always`.
+  void collapseShortEdges(const BodyDistance& body, double length, bool always = false);
   /// Edges become the other diagonal of their two triangles where that makes opposite angles smaller.
   void flipEdges();
   /// Each point goes to the middle of its neighbours, and back to the surface.

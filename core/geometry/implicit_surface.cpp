@@ -207,6 +207,8 @@ BodyMesh meshBody(const BodyDistance& body, const Eigen::AlignedBox3d& box, doub
     mesh.relax(body);
   }
   result.fit = mesh.splitToTolerance(body, tolerance);
+  // What is far below the tolerance could vanish where coordinates are rounded.
+  mesh.collapseShortEdges(body, 0.02 * tolerance, true);
   result.mesh = mesh.finish();
   checkClosed(result.mesh);
   return result;
