@@ -129,7 +129,11 @@ CellPanel::CellPanel(document::Document& document, QWidget* parent) : QWidget(pa
     refresh(true);
   });
   connect(&document_, &document::Document::sceneEdited, this, [this](const std::string& edited) {
-    if (edited.empty() || edited.starts_with(cellList)) refresh(false);
+    if ((edited.empty() || edited.starts_with(cellList)) && !isAhead()) refresh(false);
+  });
+  connect(&document_, &document::Document::editingChanged, this, [this](bool editing) {
+    // Edits that waited may have been dropped.
+    if (!editing && !isAhead() && !refused_ && index_ >= 0 && draft_ != entryOfScene()) refresh(false);
   });
   connect(&document_, &document::Document::fileChanged, this, [this] { showValues(document_.valueAt(pointer())); });
   refresh(true);
@@ -140,6 +144,8 @@ std::string CellPanel::pointer() const { return cellList + "/" + std::to_string(
 Json CellPanel::entryOfScene() const {
   return index_ < 0 ? Json() : document_.scene().json().at(Json::json_pointer(pointer()));
 }
+
+bool CellPanel::isAhead() const { return dragging_ || !commitText_.isEmpty() || document_.isEditing(); }
 
 CellParameterRow* CellPanel::row(const std::string& key) const {
   const auto found = std::find_if(rows_.begin(), rows_.end(), [&](auto* row) { return row->key() == key; });

@@ -52,6 +52,8 @@ class CellPanel final : public QWidget {
   void showInspected(const jobs::InspectedCell& cell);
   void showFindings(const jobs::InspectedCell& cell);
   document::Json entryOfScene() const;
+  /// The draft has something that the scene will have in a moment.
+  bool isAhead() const;
   std::string pointer() const;
 
   document::Document& document_;

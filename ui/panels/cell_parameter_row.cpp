@@ -91,7 +91,7 @@ CellParameterRow::CellParameterRow(base::ParameterSpec spec, QWidget* parent)
   highText_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
 
   auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(16, 2, 8, 2);
+  grid->setContentsMargins(16, 0, 8, 0);
   grid->setHorizontalSpacing(4);
   grid->setVerticalSpacing(0);
   grid->setColumnStretch(0, 1);

@@ -22,6 +22,12 @@ QString percent(double strain) {
       .arg(std::abs(value), 0, 'f', 2);
 }
 
+/// Three digits: gaps say how near to contact it is, no more.
+QString gapText(double metres) {
+  const plots::LengthUnit unit = plots::fittingLengthUnit(metres);
+  return QStringLiteral("%1 %2").arg(metres * unit.perMetre, 0, 'g', 3).arg(unit.name);
+}
+
 }  // namespace
 
 QString strainText(const jobs::LiveCellState& state) {
@@ -70,9 +76,8 @@ void CellBar::showState(const jobs::LiveCellState& state) {
   if (const QString contacts = contactText(state); !contacts.isEmpty()) parts << contacts;
   if (state.cell && state.step.smallestGap > 0) {
     const double widest = 2 * state.cell->smallestRadius();
-    parts << (state.step.smallestGap < 0.999 * widest
-                  ? tr("smallest gap %1").arg(plots::formatLength(state.step.smallestGap))
-                  : tr("gaps above %1").arg(plots::formatLength(widest)));
+    parts << (state.step.smallestGap < 0.999 * widest ? tr("gap %1").arg(gapText(state.step.smallestGap))
+                                                      : tr("gaps above %1").arg(gapText(widest)));
   }
   text_->setText(parts.join(separator), state.step.locked ? style.warning : style.text);
 }

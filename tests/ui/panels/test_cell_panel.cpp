@@ -1,6 +1,7 @@
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QTest>
+#include <QTimer>
 #include <cmath>
 
 #include "core/scene/interlock_builder.hpp"
@@ -94,6 +95,26 @@ class TestCellPanel : public QObject {
     QCOMPARE(document_->valueAt("/interlocking_cells/0/spacing").get<double>(), 12e-3);
     QCOMPARE(row->field()->shownText(), QString("12 mm"));
     QVERIFY(messages_.isEmpty());
+  }
+
+  /// Keys come faster than inspections, and models take longer still: none is lost.
+  void keysInARowAddUp() {
+    document_->setBackground(
+        [](document::BackgroundWork work) { QTimer::singleShot(40, [work = std::move(work)] { work()(); }); });
+    document_->adopt(sceneOf("ring_net"), {});
+    QTRY_VERIFY_WITH_TIMEOUT(!panel_->findings().trimmed().isEmpty(), patience);
+    panels::ParameterSlider* slider = panel_->row("spacing")->slider();
+    for (int i = 0; i < 6; ++i) {
+      QTest::keyClick(slider, Qt::Key_Right, Qt::ShiftModifier);
+      QTest::qWait(15);
+    }
+    const auto spacing = [this] { return document_->valueAt("/interlocking_cells/0/spacing").get<double>(); };
+    // Six thousandths of the slider's length, which is from a fiftieth of twice the default to that.
+    const double wanted = 12e-3 + 6 * 0.001 * 0.98 * 24e-3;
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(spacing() - wanted) < 6 * 0.5e-5, patience);
+    QTRY_VERIFY_WITH_TIMEOUT(!document_->isEditing(), patience);
+    QVERIFY(std::abs(spacing() - wanted) < 6 * 0.5e-5);
+    QCOMPARE(document_->undoStack().count(), 1);
   }
 
   void whatDoesNotFitIsKeptAndSaid() {
