@@ -115,8 +115,7 @@ CellInspection inspectCell(const UnitCell& cell, double reachInRadii) {
   if (gap < result.reach)
     result.nearest = NearestElements{where.a, where.b, where.shift, gap, placeBetween(cell, where, gap)};
   if (result.overlaps()) {
-    result.fault = pairText(cell, where.a, where.b, where.shift) + " overlap by " +
-                   sizeText(-gap) + ".";
+    result.fault = pairText(cell, where.a, where.b, where.shift) + " overlap by " + sizeText(-gap) + ".";
     return result;
   }
   const auto found = LinkFinder(contact).linksAt(restState(cell));

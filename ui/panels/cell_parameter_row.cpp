@@ -38,6 +38,14 @@ double roundedTo(double value, const Unit& unit) {
   return QString::number(value, 'g', 4).toDouble();
 }
 
+/// "Ring radius"; of a letter what it stands for: "Turns about the axis".
+QString nameOf(const base::ParameterSpec& spec) {
+  if (spec.key.size() > 1) return humanName(spec.key);
+  QString meaning = QString::fromStdString(spec.description);
+  if (meaning.endsWith(QLatin1Char('.'))) meaning.chop(1);
+  return meaning;
+}
+
 QLabel* endLabel(QWidget* parent) {
   auto* label = new QLabel(parent);
   QFont small = label->font();
@@ -61,7 +69,7 @@ bool CellParameterRow::fits(const base::ParameterSpec& spec) {
 
 CellParameterRow::CellParameterRow(base::ParameterSpec spec, QWidget* parent)
     : QWidget(parent), spec_(std::move(spec)) {
-  const QString name = humanName(spec_.key);
+  const QString name = nameOf(spec_);
   auto* title = new QLabel(this);
   title->setText(
       spec_.symbol.empty()
@@ -127,7 +135,7 @@ CellParameterRow::CellParameterRow(base::ParameterSpec spec, QWidget* parent)
   connect(reset_, &QToolButton::clicked, this, [this] {
     base::Json exact = static_cast<int>(std::lround(saved_));
     if (spec_.kind == base::ValueKind::number) exact = base::formatQuantityExactly(saved_, spec_.dimension);
-    Q_EMIT committed(spec_.key, exact, tr("Reset %1").arg(humanName(spec_.key)), false);
+    Q_EMIT committed(spec_.key, exact, tr("Reset %1").arg(nameOf(spec_)), false);
   });
   showBounds();
 }
@@ -169,12 +177,12 @@ void CellParameterRow::showBounds() {
 }
 
 void CellParameterRow::commit(double value, bool nudge) {
-  Q_EMIT committed(spec_.key, written(value), tr("%1 to %2").arg(humanName(spec_.key), shown(value)), nudge);
+  Q_EMIT committed(spec_.key, written(value), tr("%1 to %2").arg(nameOf(spec_), shown(value)), nudge);
 }
 
 void CellParameterRow::type(const QString& text) {
   Q_EMIT committed(
-      spec_.key, parseText(text, field_->shownText(), spec_), tr("%1 to %2").arg(humanName(spec_.key), text), false);
+      spec_.key, parseText(text, field_->shownText(), spec_), tr("%1 to %2").arg(nameOf(spec_), text), false);
 }
 
 }  // namespace pliant::panels

@@ -4,15 +4,14 @@
 #include <vtkMapper.h>
 #include <vtkMatrix4x4.h>
 #include <vtkProperty.h>
-#include <vtkShaderProperty.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <string>
 
 #include "core/interlock/cell_surface.hpp"
 #include "ui/render/bounds.hpp"
+#include "ui/render/marks.hpp"
 #include "ui/render/sheet_primitive.hpp"
 #include "ui/render/stage.hpp"
 
@@ -40,55 +39,6 @@ geometry::SurfaceMesh surfaceOf(const UnitCell& cell, int shape) {
   alone.elements = {{shape, Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
   return interlock::cellSurface(alone, interlock::restState(alone), 1, 1, surfaceTurn);
 }
-
-std::vector<int> firstNumbers(Eigen::Index count) {
-  std::vector<int> numbers(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<int>(i);
-  return numbers;
-}
-
-Points columnsOf(const std::vector<Vector3d>& places) {
-  Points points(3, static_cast<Eigen::Index>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = places[i];
-  return points;
-}
-
-/// Balls of one size at some places.
-struct Balls {
-  MarkerPrimitive markers{MarkerPrimitive::Shape::sphere};
-
-  void show(const std::vector<Vector3d>& places, double radius) {
-    markers.setNodes(
-        firstNumbers(static_cast<Eigen::Index>(places.size())), std::vector<double>(places.size(), radius));
-    markers.setPoints(columnsOf(places));
-    markers.actor()->SetVisibility(!places.empty());
-  }
-};
-
-/// Dots with a rim that are seen through everything: where wires touch, they hide the place between them.
-struct Marks {
-  explicit Marks(double diameter) : rims(diameter + 4), dots(diameter) {
-    seeThrough(rims.actor(), 0.02);
-    seeThrough(dots.actor(), 0.01);
-  }
-
-  void show(const std::vector<Vector3d>& places) {
-    for (DotPrimitive* each : {&rims, &dots}) {
-      each->setNodes(firstNumbers(static_cast<Eigen::Index>(places.size())));
-      each->setPoints(columnsOf(places));
-      each->actor()->SetVisibility(!places.empty());
-    }
-  }
-
-  /// Draws it as if it were nearer to the eye: `share` of its depth.
-  static void seeThrough(vtkActor* actor, double share) {
-    actor->GetShaderProperty()->AddFragmentShaderReplacement(
-        "//VTK::Light::Impl", true,
-        "//VTK::Light::Impl\n  gl_FragDepth = " + std::to_string(share) + " * gl_FragCoord.z;\n", false);
-  }
-
-  DotPrimitive rims, dots;
-};
 
 }  // namespace
 
@@ -118,14 +68,14 @@ struct CellView::Parts {
   explicit Parts(Stage& around) : stage(around) {
     vtkRenderer* renderer = stage.renderer();
     for (LinePrimitive* line : {&outline, &handLine}) renderer->AddActor(line->actor());
-    for (Balls* balls : {&handles, &handMark}) renderer->AddActor(balls->markers.actor());
+    for (Balls* balls : {&handles, &handMark}) renderer->AddActor(balls->actor());
     for (Marks* marks : {&contactMarks, &overlapMark})
-      for (DotPrimitive* each : {&marks->rims, &marks->dots}) renderer->AddActor(each->actor());
+      for (vtkActor* actor : marks->actors()) renderer->AddActor(actor);
+    seeThrough(handles.actor(), 0.03);  // whatever hides them, they can be taken
     stage.onTheme = [this] { applyTheme(); };
     stage.onPixelRatio = [this] {
       for (LinePrimitive* line : {&outline, &handLine}) line->setPixelRatio(stage.pixelRatio());
-      for (Marks* marks : {&contactMarks, &overlapMark})
-        for (DotPrimitive* each : {&marks->rims, &marks->dots}) each->setPixelRatio(stage.pixelRatio());
+      for (Marks* marks : {&contactMarks, &overlapMark}) marks->setPixelRatio(stage.pixelRatio());
     };
     stage.onLayOut = [] {};
     showState();
@@ -233,11 +183,10 @@ struct CellView::Parts {
       setColor(body->actor, own ? base : mixed(mixed(base, colors.rest, 0.5), colors.background, 0.5 * paler));
     }
     setColor(outline.actor(), colors.spring);
-    setColor(handles.markers.actor(), colors.text);
-    setColor(contactMarks.dots.actor(), colors.prediction);
-    setColor(overlapMark.dots.actor(), {0.85, 0.1, 0.15});
-    for (Marks* marks : {&contactMarks, &overlapMark}) setColor(marks->rims.actor(), colors.background);
-    setColor(handMark.markers.actor(), colors.prediction);
+    setColor(handles.actor(), colors.text);
+    contactMarks.setColors(colors.prediction, colors.background);
+    overlapMark.setColors({0.85, 0.1, 0.15}, colors.background);
+    setColor(handMark.actor(), colors.prediction);
     setColor(handLine.actor(), colors.prediction);
   }
 
