@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/base/stopwatch.hpp"
 #include "core/math/parallel.hpp"
 
 namespace pliant::interlock {
@@ -19,6 +20,8 @@ constexpr double tryAbove = 0.02, countAbove = 1e-3;
 /// Where on its ray a neighbour's elements are brought before they are pulled, relative to the limit.
 constexpr double enterAt = 0.8;
 constexpr int mostRounds = 4;
+/// Seconds between two calls of an observer, at least, and at least so many times what the last one took.
+constexpr double observedEvery = 0.05, observedShare = 50;
 
 EquilibriumOptions looserThan(EquilibriumOptions options) {
   options.finalGap = std::max(options.finalGap, 1e-2);
@@ -28,12 +31,13 @@ EquilibriumOptions looserThan(EquilibriumOptions options) {
 class BoundaryComputation {
  public:
   BoundaryComputation(const CellSolver& solver, const BoundaryOptions& options, base::ExecutionContext& context,
-                      BoundaryMemory* memory)
+                      BoundaryMemory* memory, const BoundaryObserver& observe)
       : solver_(solver),
         looser_(solver.contact().cell(), looserThan(solver.options())),
         options_(options),
         context_(context),
-        memory_(memory) {}
+        memory_(memory),
+        observe_(observe) {}
 
   StrainSpaceBoundary run() {
     findMiddle();
@@ -79,6 +83,20 @@ class BoundaryComputation {
     return state;
   }
 
+  /// A state that is known now; an observer sees it soon. States are read elsewhere only while none is put.
+  void put(int direction, BoundaryState state) {
+    if (!observe_) {
+      boundary_.states[direction] = std::move(state);
+      return;
+    }
+    const std::lock_guard lock(observed_);
+    boundary_.states[direction] = std::move(state);
+    const double now = watch_.seconds();
+    if (now < nextLook_) return;
+    observe_(boundary_);
+    nextLook_ = watch_.seconds() + std::max(observedEvery, observedShare * (watch_.seconds() - now));
+  }
+
   BoundaryState stateOf(const CellEquilibrium& rest, const Vector3d& direction) const {
     BoundaryState state;
     state.distance = direction.dot(rest.state.strain - boundary_.middle);
@@ -101,10 +119,10 @@ class BoundaryComputation {
     math::parallelFor(count, [&](int k) {
       const int i = first + k;
       if (context_.cancelRequested()) return;
-      boundary_.states[i] = recalled("ray " + std::to_string(i), [&] {
-        const Vector3d& direction = boundary_.mesh.directions[i];
-        return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
-      });
+      put(i, recalled("ray " + std::to_string(i), [&] {
+            const Vector3d& direction = boundary_.mesh.directions[i];
+            return stateOf(solver_.solve(boundary_.middleState, rayDrive(direction), &context_), direction);
+          }));
       context_.reportProgress(0.6 * ++done / count);
     });
     for (int round = 0; options_.testStarShape && round < mostRounds; ++round)
@@ -130,8 +148,8 @@ class BoundaryComputation {
       if (before[j].distance == tried_[i] || foldsAlike(before[i].cell, before[j].cell)) return;
       tried_[i] = before[j].distance;
       const std::string name = "test " + std::to_string(before.size()) + " " + std::to_string(round) + " ";
-      boundary_.states[i] = recalled(
-          name + std::to_string(i), [&] { return tested(before[i], before[j], boundary_.mesh.directions[i]); });
+      put(i, recalled(
+                 name + std::to_string(i), [&] { return tested(before[i], before[j], boundary_.mesh.directions[i]); }));
       if (boundary_.states[i].distance != before[i].distance) changed = true;
     });
     return changed;
@@ -234,6 +252,10 @@ class BoundaryComputation {
   const BoundaryOptions& options_;
   base::ExecutionContext& context_;
   BoundaryMemory* memory_;
+  const BoundaryObserver& observe_;
+  std::mutex observed_;
+  base::Stopwatch watch_;
+  double nextLook_ = 0;  ///< of the observer, on the watch [s]
   StrainSpaceBoundary boundary_;
   std::vector<double> errors_;   ///< see measureErrors
   std::vector<int> generation_;  ///< of directions: how often the icosahedron was cut up to it
@@ -284,8 +306,9 @@ Vector3d greenStrain(const Vector3d& strain) {
 }
 
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory) {
-  return BoundaryComputation(solver, options, context, memory).run();
+                                    base::ExecutionContext& context, BoundaryMemory* memory,
+                                    const BoundaryObserver& observe) {
+  return BoundaryComputation(solver, options, context, memory, observe).run();
 }
 
 }  // namespace pliant::interlock

@@ -77,9 +77,14 @@ struct StrainSpaceBoundary {
 /// Green strain (E_x, E_y, E_xy) of strain coordinates, E = (FᵀF - I)/2.
 Eigen::Vector3d greenStrain(const Eigen::Vector3d& strain);
 
+/// Called with what there is so far, from any of the threads but never from two at once; states that are not known yet
+/// have the termination `cancelled`. At most 20 times a second, and less often where copying would cost much.
+using BoundaryObserver = std::function<void(const StrainSpaceBoundary&)>;
+
 /// Computed in parallel; the same bytes for any number of threads. After cancellation states not reached have the
 /// termination `cancelled`.
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
+                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr,
+                                    const BoundaryObserver& observe = {});
 
 }  // namespace pliant::interlock

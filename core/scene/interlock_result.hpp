@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/interlock/strain_space_boundary.hpp"
+#include "core/interlock/session_memory.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
@@ -50,7 +50,12 @@ class StretchBoundaryResult final : public InterlockResult {
 
   interlock::StrainSpaceBoundary boundary;
   int recalled = 0;  ///< limits that a run before had found
+  /// What a run after a cancelled one goes on from, see ResumableStudy.
+  std::shared_ptr<interlock::SessionMemory> memory;
 };
+
+/// What boundary.csv says: a row a limit.
+std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary);
 
 /// "locked", "reached", "unlimited".
 std::string_view nameOf(interlock::RestKind kind);

@@ -7,6 +7,7 @@
 #include "core/interlock/boundary_file.hpp"
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/interlock_result.hpp"
+#include "core/scene/resumable_study.hpp"
 #include "core/scene/run_information.hpp"
 
 namespace pliant::scene {
@@ -113,9 +114,17 @@ class FreeTravelStudy final : public InterlockStudy {
   }
 };
 
-class StretchBoundaryStudy final : public InterlockStudy {
+class StretchBoundaryStudy final : public InterlockStudy, public ResumableStudy {
  public:
   using InterlockStudy::InterlockStudy;
+
+  void goOnFrom(const Result& before) override {
+    const auto* result = dynamic_cast<const StretchBoundaryResult*>(&before);
+    if (!result || !result->memory || result->termination != TerminationType::cancelled) return;
+    const Provenance& other = result->provenance;
+    if (other.version == provenance_.version && other.sceneHash == provenance_.sceneHash && other.options == options_)
+      memory_ = result->memory;
+  }
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
@@ -128,16 +137,33 @@ class StretchBoundaryStudy final : public InterlockStudy {
     options.tolerance = options_["tolerance"];
     options.maximumStates = options_["maximum_states"];
     options.testStarShape = options_["test_star_shape"];
-    std::optional<interlock::BoundaryFile> memory;
+    std::optional<interlock::BoundaryFile> file;
     if (options_.contains("checkpoint"))
-      memory.emplace(directory_ / options_["checkpoint"].get<std::string>(),
-                     provenance_.version + " " + provenance_.sceneHash + " " + options_.dump());
-    if (memory) result->recalled = memory->recalledCount();
-    result->boundary = interlock::computeBoundary(solver, options, context, memory ? &*memory : nullptr);
+      file.emplace(directory_ / options_["checkpoint"].get<std::string>(),
+                   provenance_.version + " " + provenance_.sceneHash + " " + options_.dump());
+    result->memory = memory_ ? memory_ : std::make_shared<interlock::SessionMemory>();
+    result->recalled = file ? file->recalledCount() : result->memory->count();
+    interlock::BoundaryMemory* memory = result->memory.get();
+    if (file) memory = &*file;
+    interlock::BoundaryObserver observeBoundary;
+    if (observe)
+      observeBoundary = [&](const interlock::StrainSpaceBoundary& soFar) {
+        auto partial = std::make_shared<StretchBoundaryResult>();
+        partial->boundary = soFar;
+        partial->recalled = result->recalled;
+        partial->memory = result->memory;
+        finish(*partial, TerminationType::cancelled, "", watch);
+        observe(partial);
+      };
+    result->boundary = interlock::computeBoundary(solver, options, context, memory, observeBoundary);
     finish(*result, result->boundary.termination, result->boundary.message, watch);
+    if (result->termination != TerminationType::cancelled) result->memory.reset();
     if (observe) observe(result);
     return result;
   }
+
+ private:
+  std::shared_ptr<interlock::SessionMemory> memory_;  ///< of a cancelled run; null: none
 };
 
 }  // namespace

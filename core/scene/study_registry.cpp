@@ -4,6 +4,7 @@
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
+#include "core/scene/resumable_study.hpp"
 #include "core/scene/study.hpp"
 #include "core/scene/study_specs.hpp"
 #include "core/scene/time_studies.hpp"
@@ -13,7 +14,7 @@ namespace pliant::scene {
 namespace {
 
 /// A study that logs the warnings of what it returns, whatever its type.
-class WarningStudy final : public Study {
+class WarningStudy final : public Study, public ResumableStudy {
  public:
   explicit WarningStudy(std::unique_ptr<Study> study) : study_(std::move(study)) {}
 
@@ -23,6 +24,9 @@ class WarningStudy final : public Study {
     auto result = study_->run(context, observe);
     for (const std::string& warning : result->warnings()) context.log(base::Severity::warning, warning);
     return result;
+  }
+  void goOnFrom(const Result& before) override {
+    if (auto* study = dynamic_cast<ResumableStudy*>(study_.get())) study->goOnFrom(before);
   }
 
  private:
