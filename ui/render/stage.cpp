@@ -8,7 +8,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkTextProperty.h>
 
-#include "ui/render/thread_safe_text.hpp"
 #include "ui/render/vtk_text.hpp"
 
 namespace pliant::render {
@@ -20,7 +19,6 @@ constexpr int fineSamples = 8;
 }  // namespace
 
 Stage::Stage() {
-  makeTextThreadSafe();
   // What is drawn is small: waking VTK's pool of threads costs more than it saves, and the solver wants the cores.
   vtk::detail::smp::vtkSMPToolsAPI::GetInstance().SetBackend("Sequential");
   renderer_->AutomaticLightCreationOff();
@@ -113,9 +111,14 @@ void Stage::setFineQuality(bool fine) {
 
 void Stage::setFrameless(bool frameless) {
   frameless_ = frameless;
-  gizmo_.setVisible(!frameless);
+  gizmo_.setVisible(!frameless && gizmoVisible_);
   caption_->SetVisibility(!frameless && !captionText_.empty());
   setLegendVisible(legendVisible_);
+}
+
+void Stage::setGizmoVisible(bool visible) {
+  gizmoVisible_ = visible;
+  gizmo_.setVisible(visible && !frameless_);
 }
 
 void Stage::setFieldVisible(bool visible) {

@@ -10,6 +10,7 @@
 #include "ui/render/camera_control.hpp"
 #include "ui/render/gizmo.hpp"
 #include "ui/render/legend.hpp"
+#include "ui/render/thread_safe_text.hpp"
 #include "ui/render/view.hpp"
 
 namespace pliant::render {
@@ -41,6 +42,8 @@ class Stage {
   void setFineQuality(bool fine);
   void setFieldVisible(bool visible);
   void setFrameless(bool frameless);
+  /// For figures with axes of their own.
+  void setGizmoVisible(bool visible);
   /// Shows the scalar bar and keeps room for it.
   void setLegendVisible(bool visible);
 
@@ -52,6 +55,7 @@ class Stage {
  private:
   void layOut();
 
+  ThreadSafeText threadSafeText_;  // before any text
   vtkNew<vtkRenderer> renderer_;
   CameraControl camera_{renderer_};
   Gizmo gizmo_;
@@ -66,6 +70,7 @@ class Stage {
   bool fieldVisible_ = true;
   bool legendVisible_ = false;
   bool frameless_ = false;
+  bool gizmoVisible_ = true;
   std::string captionText_;
 };
 

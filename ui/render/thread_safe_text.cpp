@@ -3,6 +3,7 @@
 #include <vtkMathTextFreeTypeTextRenderer.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkVersion.h>
 
 #include <mutex>
 
@@ -12,7 +13,6 @@ namespace {
 class LockedTextRenderer final : public vtkMathTextFreeTypeTextRenderer {
  public:
   static LockedTextRenderer* New();
-  static void drawAllText() { SetInstance(vtkNew<LockedTextRenderer>()); }
   vtkTypeMacro(LockedTextRenderer, vtkMathTextFreeTypeTextRenderer)
 
       protected : bool GetBoundingBoxInternal(vtkTextProperty* style, const vtkStdString& text, int box[4], int dpi,
@@ -52,11 +52,27 @@ class LockedTextRenderer final : public vtkMathTextFreeTypeTextRenderer {
 };
 vtkStandardNewMacro(LockedTextRenderer);
 
+class LockedTextFactory final : public vtkObjectFactory {
+ public:
+  static LockedTextFactory* New();
+  vtkTypeMacro(LockedTextFactory, vtkObjectFactory)
+
+      LockedTextFactory() {
+    RegisterOverride("vtkTextRenderer", "LockedTextRenderer", "text that threads take turns to draw", 1,
+                     [] { return static_cast<vtkObject*>(LockedTextRenderer::New()); });
+  }
+  const char* GetVTKSourceVersion() override { return VTK_SOURCE_VERSION; }
+  const char* GetDescription() override { return "text that threads take turns to draw"; }
+};
+vtkStandardNewMacro(LockedTextFactory);
+
 }  // namespace
 
 void makeTextThreadSafe() {
   static const bool done = [] {
-    LockedTextRenderer::drawAllText();
+    vtkObjectFactory::SetAllEnableFlags(0, "vtkTextRenderer");
+    const vtkNew<LockedTextFactory> factory;
+    vtkObjectFactory::RegisterFactory(factory);
     return true;
   }();
   static_cast<void>(done);

@@ -3,7 +3,6 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkStdString.h>
-#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
@@ -44,7 +43,6 @@ class TestThreadSafeText : public QObject {
 
  private Q_SLOTS:
   void everyStageSeesToIt() {
-    const vtkNew<vtkTextActor> earlier;
     const Stage stage;
     QCOMPARE(vtkTextRenderer::GetInstance()->GetClassName(), "LockedTextRenderer");
   }
