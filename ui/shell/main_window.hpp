@@ -18,6 +18,8 @@ class QToolButton;
 class QVBoxLayout;
 
 namespace pliant::panels {
+class BoundaryPanel;
+class CellTestPanel;
 class EnergyPanel;
 class LimitPanel;
 class LogPanel;
@@ -27,6 +29,7 @@ class MotionPanel;
 class ParameterPanel;
 class ResponsePanel;
 class SceneTree;
+class TravelPanel;
 }  // namespace pliant::panels
 
 namespace pliant::viewport {
@@ -67,9 +70,14 @@ class MainWindow final : public QMainWindow {
   panels::LimitPanel& limits() { return *limits_; }
   panels::EnergyPanel& energies() { return *energies_; }
   DrapeGallery& drapes() { return *drapes_; }
+  panels::BoundaryPanel& boundary() { return *boundary_; }
+  panels::TravelPanel& travel() { return *travel_; }
+  panels::CellTestPanel& cellTests() { return *cellTests_; }
 
   /// See frameExport; a message says what came of it.
   void exportFramesTo(const QString& file);
+  /// See writeBoundary; a message says what came of it.
+  void exportBoundaryTo(const QString& file);
 
   QSize sizeHint() const override { return {1280, 800}; }
 
@@ -91,6 +99,9 @@ class MainWindow final : public QMainWindow {
   void makeLiveActions();
   void makeLiveBar();
   void openLive();
+  void makeInterlockDocks();
+  void connectInterlock();
+  void showInterlockDocks(bool shown);
   void showPlaying(bool playing);
   void makeMenus();
   void makeToolBar();
@@ -115,7 +126,8 @@ class MainWindow final : public QMainWindow {
   void openPalette();
   void setTheme(Theme theme);
   void setDocksVisible(bool visible);
-  /// Docks of cloth are there for scenes with a cloth, those of vibrations for all but scenes with a cloth alone.
+  /// Docks of cloth and of interlocking materials are there for scenes with one, those of vibrations for all but scenes
+  /// with these alone.
   void showFittingDocks();
   void restoreSettings();
   void storeSettings() const;
@@ -148,6 +160,9 @@ class MainWindow final : public QMainWindow {
   panels::LimitPanel* limits_ = nullptr;
   panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;
+  panels::BoundaryPanel* boundary_ = nullptr;
+  panels::TravelPanel* travel_ = nullptr;
+  panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;
@@ -155,7 +170,7 @@ class MainWindow final : public QMainWindow {
   CommandPalette* palette_ = nullptr;
   QByteArray docksBefore_;  ///< the drapes had the window to themselves
   std::vector<QDockWidget*> docks_;
-  std::vector<QDockWidget*> harmonicDocks_, clothDocks_;
+  std::vector<QDockWidget*> harmonicDocks_, clothDocks_, interlockDocks_;
 };
 
 }  // namespace pliant::shell

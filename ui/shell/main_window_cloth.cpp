@@ -11,6 +11,7 @@
 #include "ui/shell/drape_gallery.hpp"
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/gallery.hpp"
+#include "ui/shell/interlock_link.hpp"
 #include "ui/shell/live_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -164,16 +165,18 @@ void MainWindow::exportFramesTo(const QString& file) {
 }
 
 void MainWindow::showFittingDocks() {
-  const bool cloth = hasCloth(document_);
+  const bool cloth = hasCloth(document_), interlock = hasInterlock(document_);
   const auto& studies = document_.studies();
-  const bool harmonic = !cloth || std::any_of(studies.begin(), studies.end(),
-                                              [](const auto& s) { return !document::isClothStudy(s.type); });
+  const bool harmonic = (!cloth && !interlock) || std::any_of(studies.begin(), studies.end(), [this](const auto& s) {
+                          return !document::isClothStudy(s.type) && !isInterlockStudy(document_, s.name);
+                        });
   for (QDockWidget* dock : harmonicDocks_) dock->setVisible(harmonic);
   for (QDockWidget* dock : clothDocks_) dock->setVisible(cloth);
   docks_[1]->raise();
   docks_[3]->raise();
   if (cloth)
     for (QDockWidget* dock : clothDocks_) dock->raise();
+  showInterlockDocks(interlock);
 }
 
 }  // namespace pliant::shell
