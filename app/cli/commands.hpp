@@ -46,7 +46,15 @@ struct MotionOptions {
   std::string study;   ///< empty: the first of the scene that has a result
   std::string time;    ///< empty: not given
 };
-ExitStatus render(const MotionOptions& options, const std::string& size);
+
+/// How `render` shows a strain-space boundary.
+struct BoundaryLook {
+  std::string quantity;  ///< that colours it; empty: the distance
+  std::string compare;   ///< folder of another boundary's result, or a boundary.ply; empty: none
+  std::string slice;     ///< such as "E_xy=2 %"; empty: none
+  double opacity = 1;
+};
+ExitStatus render(const MotionOptions& options, const BoundaryLook& look, const std::string& size);
 ExitStatus exportMesh(const MotionOptions& options);
 
 /// A piece of an interlocking material for a printer; texts that are empty are not given.

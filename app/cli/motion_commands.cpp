@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "app/cli/interlock_pictures.hpp"
 #include "app/cli/moment.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/json_text.hpp"
@@ -18,6 +19,7 @@ namespace pliant::cli {
 using base::InputError;
 
 ExitStatus exportMesh(const MotionOptions& options) {
+  if (const auto status = exportBoundary(options)) return *status;
   const Moment moment = findMoment(options);
   const mechanics::Vector positions =
       moment.problem ? moment.problem->configurationAt(moment.z, moment.tau) : moment.model->restPositions;
@@ -40,7 +42,8 @@ render::PictureOptions pictureOf(const std::string& size) {
   return picture;
 }
 
-ExitStatus render(const MotionOptions& options, const std::string& size) {
+ExitStatus render(const MotionOptions& options, const BoundaryLook& look, const std::string& size) {
+  if (const auto status = renderInterlock(options, look, size)) return *status;
   render::PictureOptions picture = pictureOf(size);
   const Moment moment = findMoment(options);
   picture.caption = moment.caption + moment.instant;
@@ -54,6 +57,7 @@ ExitStatus render(const MotionOptions& options, const std::string& size) {
 }
 
 ExitStatus plot(const PlotOptions& options, const std::string& size) {
+  if (const auto status = plotInterlock(options, size)) return *status;
   const render::PictureOptions picture = pictureOf(size);
   const auto scene = scene::Scene::load(options.scene);
   auto charts = scene::resultCharts(scene, options.result, options.studies, options.quantity);
@@ -65,7 +69,7 @@ ExitStatus plot(const PlotOptions& options, const std::string& size) {
 
 #else
 
-ExitStatus render(const MotionOptions&, const std::string&) {
+ExitStatus render(const MotionOptions&, const BoundaryLook&, const std::string&) {
   throw InputError("render", "This build of pliant-cli has no renderer; build with PLIANT_BUILD_UI.");
 }
 

@@ -7,7 +7,7 @@
 
 namespace pliant::interlock {
 
-/// States of a boundary that are known.
+/// States of a boundary that are known: a computation that was cancelled goes on where it was.
 class KnownStates : public BoundaryMemory {
  public:
   bool recall(const std::string& name, BoundaryState& state) override;
@@ -16,11 +16,14 @@ class KnownStates : public BoundaryMemory {
   /// Adds what a BoundaryFile holds. False if it was begun with another `key`, or is not there. Throws base::InputError
   /// with the file as location if it is no such file.
   bool read(const std::filesystem::path& file, const std::string& key);
-  int count() const { return static_cast<int>(states_.size()); }
+  int count() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(states_.size());
+  }
 
  protected:
   std::map<std::string, BoundaryState> states_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
 };
 
 /// What has been computed of a boundary, in a text file that grows by a line a state and so survives being killed; a

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/base/stopwatch.hpp"
 #include "core/math/parallel.hpp"
 
 namespace pliant::interlock {
@@ -23,6 +24,8 @@ constexpr int mostRounds = 4;
 /// distance.
 constexpr int checkedRays = 12;
 constexpr double symmetricBelow = 1e-3;
+/// Seconds between two calls of an observer, at least, and at least so many times what the last one took.
+constexpr double observedEvery = 0.05, observedShare = 50;
 
 std::vector<CellSymmetry> symmetriesFor(const BoundarySubject& subject, const BoundaryOptions& options) {
   std::vector<CellSymmetry> symmetries;
@@ -31,28 +34,6 @@ std::vector<CellSymmetry> symmetriesFor(const BoundarySubject& subject, const Bo
   return symmetries;
 }
 
-/// A cell under stretch.
-class StretchedCell final : public BoundarySubject {
- public:
-  explicit StretchedCell(const CellSolver& solver)
-      : solver_(solver), looser_(solver.contact().cell(), withLooserGaps(solver.options())) {}
-
-  const CellContact& contact() const override { return solver_.contact(); }
-  CellState start(double perturbation, unsigned seed) const override {
-    return solver_.perturbed(restState(contact().cell()), perturbation, seed);
-  }
-  CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
-                        const base::ExecutionContext* context) const override {
-    return (loosely ? looser_ : solver_).solve(start, drive, context);
-  }
-  CellState relaxed(const CellState& state) const override { return solver_.relaxed(state); }
-  std::vector<CellSymmetry> symmetries() const override { return symmetriesOf(contact().cell()); }
-
- private:
-  const CellSolver& solver_;
-  const CellSolver looser_;
-};
-
 /// Under which a limit straight from the middle is kept.
 std::string rayName(int ray) { return "ray " + std::to_string(ray); }
 std::string checkName(int ray) { return "check " + std::to_string(ray); }
@@ -60,12 +41,13 @@ std::string checkName(int ray) { return "check " + std::to_string(ray); }
 class BoundaryComputation {
  public:
   BoundaryComputation(const BoundarySubject& subject, const BoundaryOptions& options, base::ExecutionContext& context,
-                      BoundaryMemory* memory)
+                      BoundaryMemory* memory, const BoundaryObserver& observe)
       : subject_(subject),
         options_(options),
         context_(context),
         memory_(memory),
-        symmetries_(symmetriesFor(subject, options)) {}
+        symmetries_(symmetriesFor(subject, options)),
+        observe_(observe) {}
 
   TerminationType runRays(const base::Shard& shard) {
     findMiddle();
@@ -138,6 +120,20 @@ class BoundaryComputation {
     return state;
   }
 
+  /// A state that is known now; an observer sees it soon. States are read elsewhere only while none is put.
+  void put(int direction, const BoundaryState& state) {
+    if (!observe_) {
+      spread(direction, state);
+      return;
+    }
+    const std::lock_guard lock(observed_);
+    spread(direction, state);
+    const double now = watch_.seconds();
+    if (now < nextLook_) return;
+    observe_(boundary_);
+    nextLook_ = watch_.seconds() + std::max(observedEvery, observedShare * (watch_.seconds() - now));
+  }
+
   BoundaryState stateOf(const CellEquilibrium& rest, const Vector3d& direction) const {
     BoundaryState state;
     state.distance = direction.dot(rest.state.strain - boundary_.middle);
@@ -177,7 +173,7 @@ class BoundaryComputation {
   }
 
   /// The state of a direction and of all that symmetries make from it.
-  void put(int direction, const BoundaryState& state) {
+  void spread(int direction, const BoundaryState& state) {
     boundary_.states[direction] = state;
     if (!symmetric_) return;
     for (const int i : members_[direction])
@@ -394,6 +390,10 @@ class BoundaryComputation {
   DirectionOrbits orbits_;
   std::vector<std::vector<int>> members_;  ///< of the orbit of each representative
   bool symmetric_ = true;                  ///< whether limits are as symmetric as the cell
+  const BoundaryObserver& observe_;
+  std::mutex observed_;
+  base::Stopwatch watch_;
+  double nextLook_ = 0;  ///< of the observer, on the watch [s]
   StrainSpaceBoundary boundary_;
   std::vector<double> errors_;   ///< see measureErrors
   std::vector<int> generation_;  ///< of directions: how often the icosahedron was cut up to it
@@ -443,24 +443,38 @@ Vector3d greenStrain(const Vector3d& strain) {
   return {green(0, 0), green(1, 1), green(0, 1)};
 }
 
+StretchedCell::StretchedCell(const CellSolver& solver)
+    : solver_(solver), looser_(solver.contact().cell(), withLooserGaps(solver.options())) {}
+
+CellState StretchedCell::start(double perturbation, unsigned seed) const {
+  return solver_.perturbed(restState(contact().cell()), perturbation, seed);
+}
+
+CellEquilibrium StretchedCell::solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                                     const base::ExecutionContext* context) const {
+  return (loosely ? looser_ : solver_).solve(start, drive, context);
+}
+
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory) {
-  return BoundaryComputation(StretchedCell(solver), options, context, memory).run();
+                                    base::ExecutionContext& context, BoundaryMemory* memory,
+                                    const BoundaryObserver& observe) {
+  return BoundaryComputation(StretchedCell(solver), options, context, memory, observe).run();
 }
 
 StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory) {
-  return BoundaryComputation(subject, options, context, memory).run();
+                                    base::ExecutionContext& context, BoundaryMemory* memory,
+                                    const BoundaryObserver& observe) {
+  return BoundaryComputation(subject, options, context, memory, observe).run();
 }
 
-TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
+TerminationType computeRays(const BoundarySubject& subject, const BoundaryOptions& options, const base::Shard& shard,
                             base::ExecutionContext& context, BoundaryMemory& memory) {
-  return BoundaryComputation(StretchedCell(solver), options, context, &memory).runRays(shard);
+  return BoundaryComputation(subject, options, context, &memory, {}).runRays(shard);
 }
 
-std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory) {
+std::vector<int> missingRays(const BoundarySubject& subject, const BoundaryOptions& options, BoundaryMemory& memory) {
   base::ExecutionContext context;
-  return BoundaryComputation(StretchedCell(solver), options, context, &memory).missingRays();
+  return BoundaryComputation(subject, options, context, &memory, {}).missingRays();
 }
 
 }  // namespace pliant::interlock

@@ -67,6 +67,24 @@ class BoundarySubject {
   virtual std::vector<CellSymmetry> symmetries() const { return {}; }
 };
 
+/// A cell under stretch.
+class StretchedCell final : public BoundarySubject {
+ public:
+  /// The solver must outlive this.
+  explicit StretchedCell(const CellSolver& solver);
+
+  const CellContact& contact() const override { return solver_.contact(); }
+  CellState start(double perturbation, unsigned seed) const override;
+  CellEquilibrium solve(const CellState& start, const StrainDrive& drive, bool loosely,
+                        const base::ExecutionContext* context) const override;
+  CellState relaxed(const CellState& state) const override { return solver_.relaxed(state); }
+  std::vector<CellSymmetry> symmetries() const override { return symmetriesOf(contact().cell()); }
+
+ private:
+  const CellSolver& solver_;
+  const CellSolver looser_;
+};
+
 /// The limits of in-plane deformation of a cell as a closed surface in the strain coordinates (mean, deviator, shear)
 /// of CellState (thesis 4.3.3): the distance along rays from the middle of the set, on the triangles of a sphere. On
 /// its ray each state is connected with the middle through states without overlap, so the set contains the star of
@@ -101,19 +119,26 @@ struct StrainSpaceBoundary {
 /// Green strain (E_x, E_y, E_xy) of strain coordinates, E = (FᵀF - I)/2.
 Eigen::Vector3d greenStrain(const Eigen::Vector3d& strain);
 
+/// Called with what there is so far, from any of the threads but never from two at once; states that are not known yet
+/// have the termination `cancelled`. At most 20 times a second, and less often where copying would cost much.
+using BoundaryObserver = std::function<void(const StrainSpaceBoundary&)>;
+
 /// Computed in parallel; the same bytes for any number of threads. After cancellation states not reached have the
 /// termination `cancelled`.
 StrainSpaceBoundary computeBoundary(const CellSolver& solver, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
+                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr,
+                                    const BoundaryObserver& observe = {});
+
+/// The same of anything else.
+StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
+                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr,
+                                    const BoundaryObserver& observe = {});
 
 /// Only the limits along the rays of one shard, for `memory`; what is left to do takes all of them: computeBoundary
 /// with what all shards have kept.
-base::TerminationType computeRays(const CellSolver& solver, const BoundaryOptions& options, const base::Shard& shard,
-                                  base::ExecutionContext& context, BoundaryMemory& memory);
+base::TerminationType computeRays(const BoundarySubject& subject, const BoundaryOptions& options,
+                                  const base::Shard& shard, base::ExecutionContext& context, BoundaryMemory& memory);
 /// The numbers of rays that `memory` does not know and symmetries do not make.
-std::vector<int> missingRays(const CellSolver& solver, const BoundaryOptions& options, BoundaryMemory& memory);
-/// The same of anything else.
-StrainSpaceBoundary computeBoundary(const BoundarySubject& subject, const BoundaryOptions& options,
-                                    base::ExecutionContext& context, BoundaryMemory* memory = nullptr);
+std::vector<int> missingRays(const BoundarySubject& subject, const BoundaryOptions& options, BoundaryMemory& memory);
 
 }  // namespace pliant::interlock

@@ -6,12 +6,13 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/interlock/bending_boundary.hpp"
-#include "core/interlock/boundary_file.hpp"
 #include "core/math/parallel.hpp"
 #include "core/scene/bending_result.hpp"
+#include "core/scene/boundary_shards.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/sharded_study.hpp"
 
 namespace pliant::scene {
 
@@ -194,29 +195,58 @@ class BendingSizeStudy final : public PatchStudy {
   }
 };
 
-class BendingBoundaryStudy final : public PatchStudy {
+class BendingBoundaryStudy final : public PatchStudy, public ShardedStudy {
  public:
   using PatchStudy::PatchStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    const base::Stopwatch watch;
-    auto result = std::make_shared<BendingBoundaryResult>();
-    result->patch = cut(outline());
-    const interlock::PatchSolver solver(*result->patch, equilibriumOptions());
-    const interlock::BentPatch patch(solver, bendingOptions());
+    std::optional<interlock::BoundaryFile> file;
+    if (options_.contains("checkpoint")) file.emplace(directory_ / options_["checkpoint"].get<std::string>(), key());
+    auto result = resultOf(file ? &*file : nullptr, file ? file->recalledCount() : 0, context);
+    if (observe) observe(result);
+    return result;
+  }
+
+  const ShardedStudy* sharded() const override { return this; }
+  TerminationType runShard(const base::Shard& shard, const std::filesystem::path& file,
+                           base::ExecutionContext& context) const override {
+    const auto patch = cut(outline());
+    const interlock::PatchSolver solver(*patch, equilibriumOptions());
+    return runBoundaryShard(
+        interlock::BentPatch(solver, bendingOptions()), boundaryOptions(), key(), shard, file, context);
+  }
+  std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
+                                      base::ExecutionContext& context) const override {
+    const auto patch = cut(outline());
+    const interlock::PatchSolver solver(*patch, equilibriumOptions());
+    interlock::KnownStates known;
+    readBoundaryShards(interlock::BentPatch(solver, bendingOptions()), boundaryOptions(), key(), files, known);
+    return resultOf(&known, known.count(), context);
+  }
+
+ private:
+  interlock::BoundaryOptions boundaryOptions() const {
     interlock::BoundaryOptions options;
     options.subdivisions = options_["subdivisions"];
     options.perturbation = options_["perturbation"];
     options.seed = options_["seed"];
     options.testStarShape = options_["test_star_shape"];
-    std::optional<interlock::BoundaryFile> memory;
-    if (options_.contains("checkpoint"))
-      memory.emplace(directory_ / options_["checkpoint"].get<std::string>(),
-                     provenance_.version + " " + provenance_.sceneHash + " " + options_.dump());
-    if (memory) result->recalled = memory->recalledCount();
-    result->boundary = interlock::computeBoundary(patch, options, context, memory ? &*memory : nullptr);
+    return options;
+  }
+
+  /// What kept limits hold for.
+  std::string key() const { return provenance_.version + " " + provenance_.sceneHash + " " + options_.dump(); }
+
+  std::shared_ptr<const BendingBoundaryResult> resultOf(interlock::BoundaryMemory* memory, int recalled,
+                                                        base::ExecutionContext& context) const {
+    const base::Stopwatch watch;
+    auto result = std::make_shared<BendingBoundaryResult>();
+    result->patch = cut(outline());
+    const interlock::PatchSolver solver(*result->patch, equilibriumOptions());
+    result->recalled = recalled;
+    result->boundary =
+        interlock::computeBoundary(interlock::BentPatch(solver, bendingOptions()), boundaryOptions(), context, memory);
     finish(*result, result->boundary.termination, result->boundary.message, watch);
-    if (observe) observe(result);
     return result;
   }
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/interlock/limit_grid.hpp"
+#include "core/interlock/boundary_file.hpp"
 #include "core/interlock/strain_space_boundary.hpp"
 #include "core/scene/study.hpp"
 
@@ -62,7 +63,12 @@ class StretchBoundaryResult final : public InterlockResult {
 
   interlock::StrainSpaceBoundary boundary;
   int recalled = 0;  ///< limits that a run before had found
+  /// What a run after a cancelled one goes on from, see ResumableStudy.
+  std::shared_ptr<interlock::KnownStates> memory;
 };
+
+/// What boundary.csv says: a row a limit.
+std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary);
 
 /// "locked", "reached", "unlimited".
 std::string_view nameOf(interlock::RestKind kind);

@@ -43,6 +43,8 @@ std::string elementTable(const interlock::CellState& state) {
   return csv.text();
 }
 
+}  // namespace
+
 std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary) {
   CsvWriter csv;
   for (const char* column :
@@ -65,8 +67,6 @@ std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary) {
   }
   return csv.text();
 }
-
-}  // namespace
 
 void CellTestResult::write(const std::filesystem::path& directory) const {
   ResultFolder folder(directory);

@@ -5,9 +5,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/interlock/boundary_file.hpp"
+#include "core/scene/boundary_shards.hpp"
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/interlock_result.hpp"
+#include "core/scene/resumable_study.hpp"
 #include "core/scene/run_information.hpp"
 #include "core/scene/sharded_study.hpp"
 
@@ -137,41 +138,40 @@ class StretchGridStudy final : public InterlockStudy {
   }
 };
 
-class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy {
+class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy, public ResumableStudy {
  public:
   using InterlockStudy::InterlockStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    const base::Stopwatch watch;
-    std::optional<interlock::BoundaryFile> memory;
-    if (options_.contains("checkpoint")) memory.emplace(directory_ / options_["checkpoint"].get<std::string>(), key());
-    auto result = resultOf(memory ? &*memory : nullptr, memory ? memory->recalledCount() : 0, watch, context);
+    std::optional<interlock::BoundaryFile> file;
+    if (options_.contains("checkpoint")) file.emplace(directory_ / options_["checkpoint"].get<std::string>(), key());
+    const auto session = memory_ ? memory_ : std::make_shared<interlock::KnownStates>();
+    auto result = file ? resultOf(*file, file->recalledCount(), nullptr, context, observe)
+                       : resultOf(*session, session->count(), session, context, observe);
     if (observe) observe(result);
     return result;
   }
 
+  void goOnFrom(const Result& before) override {
+    const auto* result = dynamic_cast<const StretchBoundaryResult*>(&before);
+    if (!result || !result->memory || result->termination != TerminationType::cancelled) return;
+    const Provenance& other = result->provenance;
+    if (other.version == provenance_.version && other.sceneHash == provenance_.sceneHash && other.options == options_)
+      memory_ = result->memory;
+  }
+
+  const ShardedStudy* sharded() const override { return this; }
   TerminationType runShard(const base::Shard& shard, const std::filesystem::path& file,
                            base::ExecutionContext& context) const override {
-    interlock::BoundaryFile memory(file, key());
     const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    return interlock::computeRays(solver, boundaryOptions(), shard, context, memory);
+    return runBoundaryShard(interlock::StretchedCell(solver), boundaryOptions(), key(), shard, file, context);
   }
-  const ShardedStudy* sharded() const override { return this; }
-
   std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
                                       base::ExecutionContext& context) const override {
-    const base::Stopwatch watch;
-    interlock::KnownStates known;
-    for (const std::filesystem::path& file : files)
-      if (!known.read(file, key()))
-        throw base::InputError(
-            file.string(), "This shard is not of the scene and study as they are now; run it again.");
     const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    if (const auto missing = interlock::missingRays(solver, boundaryOptions(), known); !missing.empty())
-      throw base::InputError(files[static_cast<std::size_t>(missing.front()) % files.size()].string(),
-                             "This shard is not finished: " + std::to_string(missing.size()) +
-                                 " limits are missing in all shards together. Run it again; it goes on where it was.");
-    return resultOf(&known, known.count(), watch, context);
+    interlock::KnownStates known;
+    readBoundaryShards(interlock::StretchedCell(solver), boundaryOptions(), key(), files, known);
+    return resultOf(known, known.count(), nullptr, context, {});
   }
 
  private:
@@ -190,16 +190,33 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy {
   /// What kept limits hold for.
   std::string key() const { return provenance_.version + " " + provenance_.sceneHash + " " + options_.dump(); }
 
-  std::shared_ptr<const StretchBoundaryResult> resultOf(interlock::BoundaryMemory* memory, int recalled,
-                                                        const base::Stopwatch& watch,
-                                                        base::ExecutionContext& context) const {
-    auto result = std::make_shared<StretchBoundaryResult>();
+  /// `session`: for a later run to go on from, if this one is cancelled.
+  std::shared_ptr<const StretchBoundaryResult> resultOf(interlock::BoundaryMemory& memory, int recalled,
+                                                        const std::shared_ptr<interlock::KnownStates>& session,
+                                                        base::ExecutionContext& context,
+                                                        const ResultObserver& observe) const {
+    const base::Stopwatch watch;
+    const auto resultWith = [&](interlock::StrainSpaceBoundary boundary, TerminationType termination) {
+      auto result = std::make_shared<StretchBoundaryResult>();
+      result->recalled = recalled;
+      if (termination == TerminationType::cancelled) result->memory = session;
+      const std::string message = boundary.message;
+      result->boundary = std::move(boundary);
+      finish(*result, termination, message, watch);
+      return result;
+    };
+    interlock::BoundaryObserver observeBoundary;
+    if (observe)
+      observeBoundary = [&](const interlock::StrainSpaceBoundary& soFar) {
+        observe(resultWith(soFar, TerminationType::cancelled));
+      };
     const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    result->recalled = recalled;
-    result->boundary = interlock::computeBoundary(solver, boundaryOptions(), context, memory);
-    finish(*result, result->boundary.termination, result->boundary.message, watch);
-    return result;
+    auto boundary = interlock::computeBoundary(solver, boundaryOptions(), context, &memory, observeBoundary);
+    const TerminationType termination = boundary.termination;
+    return resultWith(std::move(boundary), termination);
   }
+
+  std::shared_ptr<interlock::KnownStates> memory_;  ///< of a cancelled run; null: none
 };
 
 }  // namespace

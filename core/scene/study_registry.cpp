@@ -5,6 +5,7 @@
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
+#include "core/scene/resumable_study.hpp"
 #include "core/scene/sharded_study.hpp"
 #include "core/scene/study_specs.hpp"
 #include "core/scene/time_studies.hpp"
@@ -14,7 +15,7 @@ namespace pliant::scene {
 namespace {
 
 /// A study that logs the warnings of what it returns, whatever its type.
-class WarningStudy final : public Study, public ShardedStudy {
+class WarningStudy final : public Study, public ShardedStudy, public ResumableStudy {
  public:
   explicit WarningStudy(std::unique_ptr<Study> study) : study_(std::move(study)) {}
 
@@ -32,6 +33,10 @@ class WarningStudy final : public Study, public ShardedStudy {
   std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
                                       base::ExecutionContext& context) const override {
     return logged(study_->sharded()->merge(files, context), context);
+  }
+
+  void goOnFrom(const Result& before) override {
+    if (auto* study = dynamic_cast<ResumableStudy*>(study_.get())) study->goOnFrom(before);
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/resumable_study.hpp"
+
 namespace pliant::jobs {
 
 using document::StudyStatus;
@@ -55,11 +57,14 @@ void StudyRunner::cancel() {
 void StudyRunner::submit(const std::string& name) {
   const scene::Scene scene = document_.scene();
   const auto model = document_.model();
+  const auto before = document_.study(name)->result;
   Job job;
   job.topic = QStringLiteral("study: %1").arg(QString::fromStdString(name));
   job.title = QString::fromStdString(name);
-  job.work = [this, scene, model, name](base::ExecutionContext& context, const Publish& publish) -> Delivery {
+  job.work = [this, scene, model, name, before](base::ExecutionContext& context, const Publish& publish) -> Delivery {
     const auto study = scene::StudyRegistry::instance().make(scene, model, name);
+    if (auto* resumable = dynamic_cast<scene::ResumableStudy*>(study.get()); resumable && before)
+      resumable->goOnFrom(*before);
     auto result = study->run(context, [&](std::shared_ptr<const scene::Result> partial) {
       publish([this, name, scene, partial] { document_.setPartialResult(name, partial, scene); });
     });

@@ -111,9 +111,14 @@ void Stage::setFineQuality(bool fine) {
 
 void Stage::setFrameless(bool frameless) {
   frameless_ = frameless;
-  gizmo_.setVisible(!frameless);
+  gizmo_.setVisible(!frameless && gizmoVisible_);
   caption_->SetVisibility(!frameless && !captionText_.empty());
   setLegendVisible(legendVisible_);
+}
+
+void Stage::setGizmoVisible(bool visible) {
+  gizmoVisible_ = visible;
+  gizmo_.setVisible(visible && !frameless_);
 }
 
 void Stage::setFieldVisible(bool visible) {

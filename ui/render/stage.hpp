@@ -42,6 +42,8 @@ class Stage {
   void setFineQuality(bool fine);
   void setFieldVisible(bool visible);
   void setFrameless(bool frameless);
+  /// For figures with axes of their own.
+  void setGizmoVisible(bool visible);
   /// Shows the scalar bar and keeps room for it.
   void setLegendVisible(bool visible);
 
@@ -68,6 +70,7 @@ class Stage {
   bool fieldVisible_ = true;
   bool legendVisible_ = false;
   bool frameless_ = false;
+  bool gizmoVisible_ = true;
   std::string captionText_;
 };
 

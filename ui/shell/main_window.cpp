@@ -156,6 +156,7 @@ void MainWindow::buildDocks() {
   tabifyDockWidget(plot, motion);
   tabifyDockWidget(motion, energies);
   tabifyDockWidget(energies, log);
+  makeInterlockDocks();
   plot->raise();
   makeCellDock();
 }
@@ -182,6 +183,7 @@ void MainWindow::connectParts() {
   auto* link = new ViewportLink(document_, session_, *viewport_, this);
   auto* clothLink = new ClothLink(document_, *viewport_, *limits_, *energies_, this);
   new LiveLink(document_, live_, *viewport_, *clothLink, this);
+  connectInterlock();
   connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
   connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
   connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);

@@ -20,6 +20,8 @@ class QVBoxLayout;
 
 namespace pliant::panels {
 class CellPanel;
+class BoundaryPanel;
+class CellTestPanel;
 class EnergyPanel;
 class LimitPanel;
 class LogPanel;
@@ -29,6 +31,7 @@ class MotionPanel;
 class ParameterPanel;
 class ResponsePanel;
 class SceneTree;
+class TravelPanel;
 }  // namespace pliant::panels
 
 namespace pliant::viewport {
@@ -75,9 +78,14 @@ class MainWindow final : public QMainWindow {
   panels::CellPanel& cellPanel() { return *cellPanel_; }
   ElementGallery& elements() { return *elements_; }
   CellBar& cellBar() { return *cellBar_; }
+  panels::BoundaryPanel& boundary() { return *boundary_; }
+  panels::TravelPanel& travel() { return *travel_; }
+  panels::CellTestPanel& cellTests() { return *cellTests_; }
 
   /// See frameExport; a message says what came of it.
   void exportFramesTo(const QString& file);
+  /// See writeBoundary; a message says what came of it.
+  void exportBoundaryTo(const QString& file);
 
   QSize sizeHint() const override { return {1280, 800}; }
 
@@ -105,6 +113,9 @@ class MainWindow final : public QMainWindow {
   void makeLiveActions();
   void makeLiveBar();
   void openLive();
+  void makeInterlockDocks();
+  void connectInterlock();
+  void showInterlockDocks(bool shown);
   void showPlaying(bool playing);
   void makeMenus();
   void makeToolBar();
@@ -129,7 +140,8 @@ class MainWindow final : public QMainWindow {
   void openPalette();
   void setTheme(Theme theme);
   void setDocksVisible(bool visible);
-  /// Docks of cloth are there for scenes with a cloth, those of vibrations for all but scenes with a cloth alone.
+  /// Docks of cloth and of interlocking materials are there for scenes with one, those of vibrations for all but scenes
+  /// with these alone.
   void showFittingDocks();
   void restoreSettings();
   void storeSettings() const;
@@ -167,6 +179,9 @@ class MainWindow final : public QMainWindow {
   panels::CellPanel* cellPanel_ = nullptr;
   QDockWidget* cellDock_ = nullptr;
   CellBar* cellBar_ = nullptr;
+  panels::BoundaryPanel* boundary_ = nullptr;
+  panels::TravelPanel* travel_ = nullptr;
+  panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;
@@ -174,7 +189,7 @@ class MainWindow final : public QMainWindow {
   CommandPalette* palette_ = nullptr;
   QByteArray docksBefore_;  ///< the drapes had the window to themselves
   std::vector<QDockWidget*> docks_;
-  std::vector<QDockWidget*> harmonicDocks_, clothDocks_;
+  std::vector<QDockWidget*> harmonicDocks_, clothDocks_, interlockDocks_;
 };
 
 }  // namespace pliant::shell

@@ -11,6 +11,7 @@
 #include "ui/shell/drape_gallery.hpp"
 #include "ui/shell/exporter.hpp"
 #include "ui/shell/gallery.hpp"
+#include "ui/shell/interlock_link.hpp"
 #include "ui/shell/live_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -164,10 +165,11 @@ void MainWindow::exportFramesTo(const QString& file) {
 }
 
 void MainWindow::showFittingDocks() {
-  const bool cloth = hasCloth(document_);
+  const bool cloth = hasCloth(document_), interlock = hasInterlock(document_);
   const auto& studies = document_.studies();
-  const bool harmonic = !cloth || std::any_of(studies.begin(), studies.end(),
-                                              [](const auto& s) { return !document::isClothStudy(s.type); });
+  const bool harmonic = (!cloth && !interlock) || std::any_of(studies.begin(), studies.end(), [this](const auto& s) {
+                          return !document::isClothStudy(s.type) && !isInterlockStudy(document_, s.name);
+                        });
   for (QDockWidget* dock : harmonicDocks_) dock->setVisible(harmonic);
   for (QDockWidget* dock : clothDocks_) dock->setVisible(cloth);
   docks_[1]->raise();
@@ -175,6 +177,7 @@ void MainWindow::showFittingDocks() {
   if (cloth)
     for (QDockWidget* dock : clothDocks_) dock->raise();
   fitCellDocks();
+  showInterlockDocks(interlock);
 }
 
 }  // namespace pliant::shell

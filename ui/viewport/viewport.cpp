@@ -8,6 +8,7 @@
 #include <QWheelEvent>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ui/viewport/render_surface.hpp"
 
@@ -117,6 +118,7 @@ void Viewport::setCaption(const QString& text) {
 void Viewport::setFieldVisible(bool visible) {
   motion_.setFieldVisible(visible);
   cloth_.setFieldVisible(visible);
+  if (guest_) guest_->setFieldVisible(visible);
   redraw();
 }
 
@@ -194,6 +196,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   const bool middle = event->buttons() & Qt::MiddleButton;
   if (!turns && !middle) {
     if (live_ || showsCell()) refreshCursor(event->position());
+    Q_EMIT hovered(event->position());
     return;
   }
   if (!dragged_ && (event->position() - pressPosition_).manhattanLength() < QApplication::startDragDistance()) return;
@@ -241,6 +244,11 @@ void Viewport::wheelEvent(QWheelEvent* event) {
   view_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
   redraw(true);
   event->accept();
+}
+
+void Viewport::leaveEvent(QEvent* event) {
+  QWidget::leaveEvent(event);
+  Q_EMIT hovered(std::nullopt);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
@@ -297,7 +305,30 @@ render::Theme Viewport::theme() const {
 
 void Viewport::applyTheme() {
   for (render::View* view : std::initializer_list<render::View*>{&motion_, &cloth_, &cell_}) view->setTheme(theme());
+  if (guest_) guest_->setTheme(theme());
   redraw();
 }
+
+void Viewport::setGuest(std::shared_ptr<render::View> guest) {
+  if (guest == guest_) return;
+  const auto before = std::exchange(guest_, std::move(guest));  // detached before it may go
+  if (guest_) {
+    pause();
+    showView(*guest_);
+    guest_->setTheme(theme());
+    guest_->setFieldVisible(motion_.fieldVisible());
+  } else {
+    showOwnView();
+  }
+  redraw();
+}
+
+void Viewport::redrawGuest(bool refit) {
+  if (!guest_) return;
+  if (refit && framed_) guest_->fit();
+  redraw();
+}
+
+void Viewport::showOwnView() { showView(clothProblem_ ? static_cast<render::View&>(cloth_) : motion_); }
 
 }  // namespace pliant::viewport

@@ -44,6 +44,12 @@ class Viewport : public QWidget {
   /// Shows a cloth in the place of the model and its motion, at rest; null: these again. See render::ClothView.
   void setCloth(std::shared_ptr<const cloth::ClothProblem> problem);
   bool showsCloth() const { return view_ == &cloth_; }
+  /// Shows another view in the place of all that, from where it was seen last; null: that again.
+  void setGuest(std::shared_ptr<render::View> guest);
+  const std::shared_ptr<render::View>& guest() const { return guest_; }
+  /// Redraws after something was set at the guest. `refit`: it reaches elsewhere now, and is fitted unless somebody has
+  /// moved the camera.
+  void redrawGuest(bool refit = false);
   render::ClothView& clothView() { return cloth_; }
   std::shared_ptr<const cloth::ClothProblem> clothProblem() const { return clothProblem_; }
   using FrameClock = render::FrameClock;
@@ -82,6 +88,8 @@ class Viewport : public QWidget {
   double speed() const { return speed_; }
   /// How much faster than life a cloth is shown; 1 at first.
   double clothSpeed() const { return clothSpeed_; }
+  /// What a click there would pick.
+  std::optional<int> nodeAt(const QPointF& place) const;
   /// "OpenGL" or "software".
   QString surfaceName() const;
 
@@ -123,6 +131,8 @@ class Viewport : public QWidget {
   void timeChanged(double time);
   /// A cloth, or how much there is of it, or no cloth any more.
   void clothChanged();
+  /// Where the pointer is while no button is pressed; none once it has left. Only with setMouseTracking(true).
+  void hovered(std::optional<QPointF> place);
   void playingChanged(bool playing);
 
  protected:
@@ -132,12 +142,12 @@ class Viewport : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void advance();
   void advanceCloth(double seconds);
-  std::optional<int> nodeAt(const QPointF& place) const;
   void beginPull(const QMouseEvent& event);
   void movePull(const QPointF& place);
   void endPull(bool toggles);
@@ -147,6 +157,7 @@ class Viewport : public QWidget {
   std::optional<render::CellPick> gripAt(const QPointF& place) const;
   void refreshCursor(const QPointF& place);
   void showView(render::View& view);
+  void showOwnView();
   void attachToSurface();
   /// `moving`: more of the kind is to come soon.
   void redraw(bool moving = false);
@@ -156,6 +167,7 @@ class Viewport : public QWidget {
   render::MotionView motion_;
   render::ClothView cloth_;
   render::CellView cell_;
+  std::shared_ptr<render::View> guest_;
   render::View* view_ = &motion_;  ///< what is shown
   std::unique_ptr<RenderSurface> surface_;
   QTimer timer_;

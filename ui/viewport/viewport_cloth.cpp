@@ -24,10 +24,7 @@ void Viewport::setCloth(std::shared_ptr<const cloth::ClothProblem> problem) {
   followsNewest_ = true;
   if (!alike) pulled_.reset();
   cloth_.setProblem(std::move(problem));
-  if (shown)
-    showView(cloth_);
-  else
-    showView(motion_);
+  if (!guest_) showOwnView();
   // Another run of the same cloth is seen from where the last one was.
   if (shown && !alike) {
     framed_ = true;

@@ -1,0 +1,168 @@
+#include "core/scene/boundary_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/base/error.hpp"
+#include "core/geometry/surface_mesh.hpp"
+#include "core/scene/csv_table.hpp"
+#include "core/scene/json_text.hpp"
+
+namespace pliant::scene {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+
+namespace {
+
+using Kind = BoundaryQuantity::Kind;
+
+/// All quantities, still without values.
+std::vector<BoundaryQuantity> emptyQuantities(Index count) {
+  std::vector<BoundaryQuantity> quantities{{"distance", "distance from\nthe middle", Kind::strain, {}},
+                                           {"remaining", "smaller gaps\ncould add", Kind::strain, {}},
+                                           {"gap", "mean gap over\nwire radius", Kind::number, {}},
+                                           {"contacts", "pairs of pieces\nin contact", Kind::count, {}},
+                                           {"iterations", "iterations", Kind::count, {}},
+                                           {"way", "how the limit\nwas reached", Kind::way, {}}};
+  for (BoundaryQuantity& quantity : quantities)
+    quantity.values.setConstant(count, std::numeric_limits<double>::quiet_NaN());
+  return quantities;
+}
+
+/// In the order of emptyQuantities().
+void setQuantities(std::vector<BoundaryQuantity>& quantities, Index point, const std::array<double, 6>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) quantities[i].values[point] = values[i];
+}
+
+double wayOf(bool raised, bool seesBeyond) { return seesBeyond ? 2 : raised ? 1 : 0; }
+
+/// Takes exact places and all quantities from the table beside the mesh, if that is the table of this mesh.
+void addTable(BoundarySurface& surface, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "boundary.csv")) return;
+  const CsvTable table(folder / "boundary.csv");
+  if (static_cast<Index>(table.size()) != surface.points.cols()) return;
+  // Readers of meshes may put points in another order: limits are known by their places.
+  std::map<std::array<float, 3>, int> rows;
+  Eigen::Matrix3Xd exact(3, surface.points.cols());
+  const auto key = [](const Vector3d& place) {
+    return std::array{static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])};
+  };
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const Vector3d place(table.number(i, "green_xx"), table.number(i, "green_yy"), table.number(i, "green_xy"));
+    exact.col(static_cast<Index>(i)) = place;
+    rows[key(place)] = static_cast<int>(i);
+  }
+  std::vector<int> rowOf;
+  for (const auto& point : surface.points.colwise()) {
+    const auto row = rows.find(key(point));
+    if (row == rows.end()) return;
+    rowOf.push_back(row->second);
+  }
+  for (auto& triangle : surface.triangles)
+    for (int& corner : triangle) corner = rowOf[static_cast<std::size_t>(corner)];
+  surface.points = exact;
+  double radius = std::numeric_limits<double>::quiet_NaN();
+  if (std::filesystem::exists(folder / "summary.json")) {
+    const Json summary = parseJson(readTextFile(folder / "summary.json"));
+    radius = summary.value("smallest_radius", radius);
+    surface.name = summary.value("study", surface.name);
+    if (const Json from = summary.value("provenance", Json::object()); from.contains("scene"))
+      surface.name += " of " + std::filesystem::path(from["scene"].get<std::string>()).stem().string();
+  }
+  surface.quantities = emptyQuantities(surface.points.cols());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    surface.known[i] = table.text(i, "termination") == "converged" && table.text(i, "rest") != "unlimited";
+    if (!surface.known[i]) continue;
+    setQuantities(surface.quantities, static_cast<Index>(i),
+                  {table.number(i, "distance"), table.number(i, "remaining"), table.number(i, "mean_gap [m]") / radius,
+                   table.number(i, "contacts"), table.number(i, "iterations"),
+                   wayOf(table.number(i, "raised") != 0, table.number(i, "sees_beyond") != 0)});
+  }
+}
+
+}  // namespace
+
+int BoundarySurface::knownCount() const { return static_cast<int>(std::count(known.begin(), known.end(), true)); }
+
+const BoundaryQuantity* BoundarySurface::quantity(const std::string& key) const {
+  const auto found =
+      std::find_if(quantities.begin(), quantities.end(), [&](const auto& each) { return each.key == key; });
+  return found == quantities.end() ? nullptr : &*found;
+}
+
+BoundarySurface boundarySurface(const StretchBoundaryResult& result) {
+  const interlock::StrainSpaceBoundary& boundary = result.boundary;
+  const auto count = static_cast<Index>(boundary.states.size());
+  const double radius = result.cell->smallestRadius();
+  BoundarySurface surface;
+  surface.name = result.provenance.study;
+  surface.points.setZero(3, count);
+  surface.known.assign(boundary.states.size(), false);
+  surface.quantities = emptyQuantities(count);
+  std::vector<bool> placed(boundary.states.size(), false);
+  Eigen::Matrix3Xd strains(3, count);
+  for (Index i = 0; i < count; ++i) {
+    const auto direction = static_cast<std::size_t>(i);
+    const interlock::BoundaryState& state = boundary.states[direction];
+    const auto& [a, b] = boundary.mesh.parents[direction];
+    surface.known[direction] =
+        state.termination == base::TerminationType::converged && state.kind != interlock::RestKind::unlimited;
+    if (surface.known[direction]) {
+      strains.col(i) = boundary.strainAt(static_cast<int>(i));
+      setQuantities(surface.quantities, i,
+                    {state.distance, state.remaining, state.meanGap / radius, double(state.contacts),
+                     double(state.iterations), wayOf(state.raised, state.seesBeyond)});
+    } else if (a >= 0 && placed[static_cast<std::size_t>(a)] && placed[static_cast<std::size_t>(b)]) {
+      strains.col(i) = 0.5 * (strains.col(a) + strains.col(b));  // those come before it
+    } else {
+      continue;
+    }
+    placed[direction] = true;
+    surface.points.col(i) = interlock::greenStrain(strains.col(i));
+  }
+  const auto isPlaced = [&](int corner) { return placed[static_cast<std::size_t>(corner)]; };
+  for (const auto& triangle : boundary.mesh.triangles)
+    if (std::all_of(triangle.begin(), triangle.end(), isPlaced)) surface.triangles.push_back(triangle);
+  return surface;
+}
+
+BoundarySurface readBoundarySurface(const std::filesystem::path& place) {
+  const bool isFolder = std::filesystem::is_directory(place);
+  const std::filesystem::path file = isFolder ? place / "boundary.ply" : place;
+  if (!std::filesystem::exists(file))
+    throw base::InputError(place.string(), isFolder ? "This folder holds no boundary.ply of a stretch_boundary study."
+                                                    : "There is no such file.");
+  BoundarySurface surface;
+  try {
+    const geometry::SurfaceMesh mesh = geometry::readMesh(file, 1);
+    surface.points = mesh.points;
+    surface.triangles = mesh.triangles;
+  } catch (const base::InputError& error) {
+    throw base::InputError(file.string(), error.problem());
+  }
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  surface.name = folder.filename().string();
+  surface.known.assign(static_cast<std::size_t>(surface.points.cols()), true);
+  try {
+    addTable(surface, folder);
+  } catch (const Json::exception&) {
+    throw base::InputError((folder / "summary.json").string(), "This summary is not one of a stretch_boundary study.");
+  }
+  return surface;
+}
+
+PrincipalStretch principalStretch(const Vector3d& greenStrain) {
+  const double mean = 0.5 * (greenStrain[0] + greenStrain[1]);
+  const double half = 0.5 * (greenStrain[0] - greenStrain[1]), shear = greenStrain[2];
+  const double radius = std::hypot(half, shear);
+  PrincipalStretch result;
+  result.larger = std::sqrt(std::max(0.0, 1 + 2 * (mean + radius)));
+  result.smaller = std::sqrt(std::max(0.0, 1 + 2 * (mean - radius)));
+  result.angle = radius > 0 ? 0.5 * std::atan2(shear, half) : 0;
+  return result;
+}
+
+}  // namespace pliant::scene

@@ -1,0 +1,35 @@
+#include "core/scene/polar_curves.hpp"
+
+#include <limits>
+
+namespace pliant::scene {
+
+PolarCurves freeTravelCurves(const FreeTravelResult& result) {
+  PolarCurves all{result.provenance.study, "%", 100, 3, {}};
+  PolarCurve stretch{"stretch", {}, {}, {}, true, false}, compression = stretch, travel = stretch;
+  compression.name = "compression";
+  travel.name = "free travel";
+  const auto isLimit = [](const interlock::DirectionLimit& limit) {
+    return limit.equilibrium.converged() && limit.equilibrium.kind != interlock::RestKind::unlimited;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const interlock::FreeTravel& direction : result.directions) {
+    const bool up = isLimit(direction.stretch), down = isLimit(direction.compression);
+    const double first = direction.stretch.equilibrium.remaining, second = direction.compression.equilibrium.remaining;
+    const double shortest = 1 + direction.compression.strain;
+    const auto add = [&](PolarCurve& curve, bool known, double value, double uncertain) {
+      curve.angles.push_back(direction.stretch.angle);
+      curve.values.push_back(known ? value : none);
+      curve.uncertain.push_back(known ? uncertain : none);
+    };
+    add(stretch, up, direction.stretch.strain, first);
+    add(compression, down, direction.compression.strain, second);
+    // Of (s - c) / (1 + c), to first order.
+    add(travel, up && down, direction.travel(),
+        first / shortest + second * (1 + direction.stretch.strain) / (shortest * shortest));
+  }
+  all.curves = {stretch, compression, travel};
+  return all;
+}
+
+}  // namespace pliant::scene

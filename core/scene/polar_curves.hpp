@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/interlock_result.hpp"
+
+namespace pliant::scene {
+
+/// A quantity over the directions of the plane.
+struct PolarCurve {
+  std::string name;
+  std::vector<double> angles;     ///< [rad], ascending within half a turn, or a whole one
+  std::vector<double> values;     ///< one an angle; NaN where there is none
+  std::vector<double> uncertain;  ///< how far a value may be off, as known; empty: not told
+  bool halfTurn = true;           ///< the same in opposite directions
+  bool dashed = false;
+};
+
+/// Curves with one unit, such as deformation limits (thesis Figs. 4.6, 4.7): limits of stretch and of compression, or
+/// of curvature of either sign along and across the direction of bending. Values may be negative.
+struct PolarCurves {
+  std::string title;
+  std::string unit;   ///< "%", "1/m"; empty: none
+  double factor = 1;  ///< a value times this is in the unit
+  int decimals = 2;   ///< that read-outs show
+  std::vector<PolarCurve> curves;
+};
+
+/// Limits of stretch and of compression and the free travel between them, in per cent; without a limit where none was
+/// found.
+PolarCurves freeTravelCurves(const FreeTravelResult& result);
+
+}  // namespace pliant::scene

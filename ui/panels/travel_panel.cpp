@@ -1,0 +1,174 @@
+#include "ui/panels/travel_panel.hpp"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QStackedLayout>
+#include <QToolButton>
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/scene/polar_curves.hpp"
+#include "ui/plots/plot_export.hpp"
+#include "ui/plots/polar_plot.hpp"
+
+namespace pliant::panels {
+
+namespace {
+
+constexpr int controlHeight = 28;
+
+}  // namespace
+
+TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
+  auto* empty = new QWidget;
+  auto* middle = new QVBoxLayout(empty);
+  note_ = new QLabel;
+  note_->setWordWrap(true);
+  note_->setAlignment(Qt::AlignCenter);
+  run_ = new QPushButton;
+  middle->addStretch();
+  middle->addWidget(note_);
+  middle->addWidget(run_, 0, Qt::AlignHCenter);
+  middle->addStretch();
+
+  auto* shown = new QWidget;
+  studies_ = new QComboBox;
+  studies_->setToolTip(tr("Whose limits are shown"));
+  studies_->setFixedHeight(controlHeight);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(16, 4, 16, 4);
+  head->setSpacing(8);
+  head->addWidget(studies_);
+  switches_ = new QHBoxLayout;
+  switches_->setSpacing(12);
+  head->addLayout(switches_);
+  head->addStretch();
+  const auto button = [&](const QString& text, const QString& tooltip, auto act) {
+    auto* made = new QToolButton;
+    made->setText(text);
+    made->setToolTip(tooltip);
+    made->setFixedHeight(controlHeight);
+    connect(made, &QToolButton::clicked, this, act);
+    head->addWidget(made);
+  };
+  button(tr("Measured…"),
+         tr("Import measured values: a table with the columns angle [deg], one of stretch, compression or free travel "
+            "(strains, or in [%]),\nand, if known, error or lower and upper"),
+         &TravelPanel::chooseMeasured);
+  button(tr("Export…"), tr("Write the plot as PDF, SVG or PNG, or its numbers as CSV"), &TravelPanel::exportPlot);
+  plot_ = new plots::PolarPlot;
+  auto* column = new QVBoxLayout(shown);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addLayout(head);
+  column->addWidget(plot_, 1);
+  pages_ = new QStackedLayout(this);
+  pages_->addWidget(empty);
+  pages_->addWidget(shown);
+
+  connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(study()); });
+  connect(studies_, &QComboBox::activated, this, &TravelPanel::refresh);
+  connect(&document_, &document::Document::sceneReplaced, this, [this] {
+    plot_->clearMeasured();
+    fillStudies();
+    refresh();
+  });
+  connect(&document_, &document::Document::sceneEdited, this, [this] {
+    fillStudies();
+    refresh();
+  });
+  connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
+    if (name == study()) refresh();
+  });
+  fillStudies();
+  refresh();
+}
+
+std::string TravelPanel::study() const { return studies_->currentText().toStdString(); }
+
+void TravelPanel::setStudy(const std::string& name) {
+  const int index = studies_->findText(QString::fromStdString(name));
+  if (index < 0) return;
+  studies_->setCurrentIndex(index);
+  refresh();
+}
+
+void TravelPanel::fillStudies() {
+  const QString before = studies_->currentText();
+  studies_->clear();
+  for (const document::StudyState& study : document_.studies())
+    if (study.type == "free_travel") studies_->addItem(QString::fromStdString(study.name));
+  studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
+  studies_->setVisible(studies_->count() > 1);
+}
+
+void TravelPanel::refresh() {
+  const document::StudyState* state = document_.study(study());
+  const auto result = state ? std::dynamic_pointer_cast<const scene::FreeTravelResult>(state->result) : nullptr;
+  const bool busy =
+      state && (state->status == document::StudyStatus::running || state->status == document::StudyStatus::waiting);
+  run_->setVisible(state != nullptr);
+  run_->setEnabled(!busy);
+  run_->setText(tr("Run %1").arg(studies_->currentText()));
+  note_->setText(!state ? tr("A study of the type free_travel finds how far an interlocking material stretches and "
+                             "compresses in each direction. This scene has none; add one in the scene's tree.")
+                 : busy ? tr("The limits are on their way.")
+                        : tr("The study “%1” finds how far this material stretches and compresses in each direction.")
+                              .arg(studies_->currentText()));
+  pages_->setCurrentIndex(result ? 1 : 0);
+  if (result != result_) {
+    result_ = result;
+    plot_->setCurves(result ? scene::freeTravelCurves(*result) : scene::PolarCurves());
+    refreshSwitches();
+  }
+  plot_->setStale(state && state->stale);
+}
+
+/// A box a curve, in its colour.
+void TravelPanel::refreshSwitches() {
+  const auto& curves = plot_->curves().curves;
+  if (switches_->count() == static_cast<int>(curves.size())) return;
+  while (QLayoutItem* item = switches_->takeAt(0)) {
+    delete item->widget();
+    delete item;
+  }
+  for (int i = 0; i < static_cast<int>(curves.size()); ++i) {
+    auto* box = new QCheckBox(QString::fromStdString(curves[static_cast<std::size_t>(i)].name));
+    box->setChecked(plot_->isCurveVisible(i));
+    connect(box, &QCheckBox::toggled, this, [this, i](bool on) { plot_->setCurveVisible(i, on); });
+    switches_->addWidget(box);
+  }
+}
+
+void TravelPanel::importMeasured(const QString& file) {
+  QStringList names;
+  for (const scene::PolarCurve& curve : plot_->curves().curves) names << QString::fromStdString(curve.name);
+  plot_->addMeasured(plots::readMeasuredTable(file, names));
+}
+
+void TravelPanel::chooseMeasured() {
+  const QString file = QFileDialog::getOpenFileName(
+      this, tr("Measured values: angle [deg], stretch"), {}, tr("Comma-separated values (*.csv)"));
+  if (file.isEmpty()) return;
+  try {
+    importMeasured(file);
+  } catch (const base::InputError& error) {
+    document_.raise(base::Severity::warning, QString::fromStdString(error.what()));
+  }
+}
+
+void TravelPanel::exportPlot() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Export the plot"), {}, plots::plotExportFilters());
+  if (file.isEmpty()) return;
+  try {
+    plot_->exportTo(file);
+  } catch (const base::InputError& error) {
+    document_.raise(base::Severity::warning, QString::fromStdString(error.what()));
+  }
+}
+
+}  // namespace pliant::panels

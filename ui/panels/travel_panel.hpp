@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "core/scene/interlock_result.hpp"
+#include "ui/document/document.hpp"
+
+class QComboBox;
+class QHBoxLayout;
+class QLabel;
+class QPushButton;
+class QStackedLayout;
+
+namespace pliant::plots {
+class PolarPlot;
+}
+
+namespace pliant::panels {
+
+/// Limits of stretch and compression and the free travel between them over the direction (thesis Fig. 4.6), with what
+/// was measured.
+class TravelPanel final : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit TravelPanel(document::Document& document, QWidget* parent = nullptr);
+
+  std::string study() const;
+  void setStudy(const std::string& name);
+  plots::PolarPlot* plot() const { return plot_; }
+  /// Throws base::InputError.
+  void importMeasured(const QString& file);
+
+ Q_SIGNALS:
+  void runRequested(const std::string& study);
+
+ private:
+  void fillStudies();
+  void refresh();
+  void refreshSwitches();
+  void chooseMeasured();
+  void exportPlot();
+
+  document::Document& document_;
+  std::shared_ptr<const scene::FreeTravelResult> result_;
+  QStackedLayout* pages_;
+  QLabel* note_;
+  QPushButton* run_;
+  QComboBox* studies_;
+  QHBoxLayout* switches_;
+  plots::PolarPlot* plot_;
+};
+
+}  // namespace pliant::panels

@@ -1,0 +1,199 @@
+#include "ui/shell/interlock_link.hpp"
+
+#include <QPointer>
+#include <cmath>
+#include <numbers>
+
+#include "core/interlock/holding_contacts.hpp"
+#include "ui/panels/boundary_panel.hpp"
+#include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/travel_panel.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace pliant::shell {
+
+using document::StudyStatus;
+
+namespace {
+
+const QString contactTopic = QStringLiteral("contacts of a limit");
+constexpr double apart = 0.5;  ///< contacts of two elements nearer than this are one [smallest radii]
+
+QString percent(double strain, int digits = 4) {
+  return (strain < 0 ? QStringLiteral("−") : QString()) +
+         QStringLiteral("%1 %").arg(100 * std::abs(strain), 0, 'g', digits);
+}
+
+QString held(std::size_t contacts, double meanGap, double remaining) {
+  return QObject::tr("held at %1 places of a cell,  mean gap %2 wire radii;  smaller gaps could add %3")
+      .arg(contacts)
+      .arg(meanGap, 0, 'g', 2)
+      .arg(percent(remaining, 2));
+}
+
+/// What a limit of a cell test holds for.
+QString holdsFor(const scene::CellTestResult& result) {
+  const scene::Json& options = result.provenance.options;
+  const auto elements = result.cell->elements.size();
+  if (options.value("load", "stretch") != "compress")
+    return QObject::tr("a stretch limit holds for any number of cells");
+  return QObject::tr("holds for cells of %1 %2,  perturbed by %3 wire radii,  the farthest of %4 tries")
+      .arg(elements)
+      .arg(elements == 1 ? QObject::tr("element") : QObject::tr("elements"))
+      .arg(options.value("perturbation", 0.0), 0, 'g', 3)
+      .arg(options.value("trials", 1));
+}
+
+QString testCaption(const scene::CellTestResult& result, std::size_t contacts) {
+  const interlock::CellEquilibrium& rest = result.limit.equilibrium;
+  const scene::Json& options = result.provenance.options;
+  const QString direction = QString::number(result.limit.angle * 180 / std::numbers::pi, 'g', 4);
+  QString text = QString::fromStdString(result.provenance.study);
+  if (rest.kind == interlock::RestKind::unlimited)
+    return text + '\n' + QObject::tr("nothing limits this deformation at %1°").arg(direction);
+  if (!rest.converged()) return text + '\n' + QString::fromStdString(rest.message);
+  text += QObject::tr(":  %1%2 at %3°,  %4 across")
+              .arg(result.limit.strain > 0 ? QStringLiteral("+") : QString(), percent(result.limit.strain), direction,
+                   QString::fromStdString(options.value("lateral", "free")));
+  text += '\n' + held(contacts, rest.meanGap / result.cell->smallestRadius(), rest.remaining);
+  return text + '\n' + holdsFor(result);
+}
+
+}  // namespace
+
+bool isInterlockStudy(const document::Document& document, const std::string& study) {
+  const scene::Json studies = document.valueAt("/studies");
+  if (!studies.is_array()) return false;
+  for (const scene::Json& each : studies)
+    if (each.value("name", "") == study) return each.contains("cell");
+  return false;
+}
+
+bool hasInterlock(const document::Document& document) {
+  if (document.isEmpty()) return false;
+  const scene::Json cells = document.valueAt("/interlocking_cells");
+  return cells.is_array() && !cells.empty();
+}
+
+InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quick, viewport::Viewport& viewport,
+                             panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::CellTestPanel& tests,
+                             QObject* parent)
+    : QObject(parent),
+      document_(document),
+      quick_(quick),
+      viewport_(viewport),
+      boundary_(boundary),
+      travel_(travel),
+      tests_(tests),
+      view_(std::make_shared<render::LimitView>()) {
+  connect(&document_, &document::Document::sceneReplaced, this, [this] {
+    grows_.clear();
+    framed_ = false;
+    leave();
+  });
+  connect(&document_, &document::Document::sceneEdited, this, &InterlockLink::refreshStale);
+  connect(&document_, &document::Document::studyChanged, this, &InterlockLink::follow);
+  connect(&boundary_, &panels::BoundaryPanel::stateExamined, this, &InterlockLink::showState);
+  connect(&tests_, &panels::CellTestPanel::studyChosen, this, &InterlockLink::showTest);
+}
+
+bool InterlockLink::isShown() const { return viewport_.guest() == view_; }
+
+void InterlockLink::follow(const std::string& name) {
+  const document::StudyState* study = document_.study(name);
+  if (!study || !study->result || study->result->kind() != "interlock") return;
+  const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
+  if (study->type == "cell_test" && ended) {
+    if (!study->stale) showTest(name);
+  } else if (grows_ != name && (!ended || study->type == "free_travel")) {
+    if (study->type == "stretch_boundary") boundary_.setStudy(name);
+    if (study->type == "free_travel") travel_.setStudy(name);
+    Q_EMIT resultGrows(study->type);
+  }
+  if (!ended) grows_ = name;
+  if (ended && grows_ == name) grows_.clear();
+  refreshStale();
+}
+
+void InterlockLink::showTest(const std::string& name) {
+  quick_.abandonTopic(contactTopic);
+  const document::StudyState* study = document_.study(name);
+  const auto result = study ? std::dynamic_pointer_cast<const scene::CellTestResult>(study->result) : nullptr;
+  if (!result || result->limit.equilibrium.state.rotations.empty()) {
+    leave();
+    return;
+  }
+  study_ = name;
+  auto configuration = std::make_shared<render::CellConfiguration>();
+  configuration->cell = result->cell;
+  configuration->state = result->limit.equilibrium.state;
+  configuration->contacts =
+      interlock::distinctContacts(result->limit.equilibrium.contacts, apart * result->cell->smallestRadius());
+  tests_.setShown(name);
+  show(configuration, testCaption(*result, configuration->contacts.size()));
+}
+
+void InterlockLink::showState(int state) {
+  const auto result = boundary_.result();
+  if (state < 0 || !result || !boundary_.surface()) {
+    if (isShown() && study_ == boundary_.study()) leave();
+    return;
+  }
+  study_ = boundary_.study();
+  const Eigen::Vector3d strain = boundary_.surface()->points.col(state);
+  const QString name = QStringLiteral("%1,  limit %2").arg(QString::fromStdString(study_)).arg(state);
+  jobs::Job job;
+  job.topic = contactTopic;
+  job.work = [link = QPointer<InterlockLink>(this), result, state, strain, name](
+                 base::ExecutionContext&, const jobs::Publish&) -> jobs::Delivery {
+    const interlock::BoundaryState& limit = result->boundary.states.at(static_cast<std::size_t>(state));
+    const double radius = result->cell->smallestRadius();
+    const interlock::EquilibriumOptions defaults;
+    const double range =
+        defaults.rangeRatio * result->provenance.options.value("final_gap", defaults.finalGap) * radius;
+    auto configuration = std::make_shared<render::CellConfiguration>();
+    configuration->cell = result->cell;
+    configuration->state = limit.cell;
+    configuration->contacts = interlock::distinctContacts(
+        interlock::holdingContacts(interlock::CellContact(*result->cell), limit.cell, range), apart * radius);
+    QString caption = name + '\n' + panels::strainText(strain) + '\n' +
+                      held(configuration->contacts.size(), limit.meanGap / radius, limit.remaining);
+    return [link, configuration, caption] {
+      InterlockLink* self = link.data();
+      if (!self) return;
+      self->tests_.setShown(std::nullopt);
+      self->show(configuration, caption);
+    };
+  };
+  quick_.submit(std::move(job));
+}
+
+void InterlockLink::show(std::shared_ptr<const render::CellConfiguration> configuration, const QString& caption) {
+  view_->setConfiguration(std::move(configuration));
+  view_->setCaption((document_.title() + '\n' + caption).toStdString());
+  viewport_.setGuest(view_);
+  if (!framed_) viewport_.setAxisView(render::AxisView::isometric);
+  framed_ = true;
+  refreshStale();
+  viewport_.redrawGuest(true);
+}
+
+void InterlockLink::leave() {
+  quick_.abandonTopic(contactTopic);
+  study_.clear();
+  if (isShown()) viewport_.setGuest(nullptr);
+  tests_.setShown(std::string());
+}
+
+void InterlockLink::refreshStale() {
+  if (!isShown()) return;
+  const document::StudyState* study = document_.study(study_);
+  if (!study) {
+    leave();
+    return;
+  }
+  view_->setStale(study->stale);
+  viewport_.redrawGuest();
+}
+
+}  // namespace pliant::shell

@@ -1,0 +1,79 @@
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+
+#include "core/base/error.hpp"
+#include "ui/panels/boundary_panel.hpp"
+#include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/travel_panel.hpp"
+#include "ui/shell/boundary_export.hpp"
+#include "ui/shell/interlock_link.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/viewport/viewport.hpp"
+
+namespace pliant::shell {
+
+namespace {
+
+constexpr double heightShare = 0.6;  ///< of the window, that a boundary to be turned needs
+constexpr int plotHeight = 312;      ///< of the other docks at the bottom
+
+}  // namespace
+
+void MainWindow::makeInterlockDocks() {
+  boundary_ = new panels::BoundaryPanel(document_, quickJobs_);
+  travel_ = new panels::TravelPanel(document_);
+  cellTests_ = new panels::CellTestPanel(document_);
+  const auto add = [this](const QString& title, const char* name, QWidget* widget) {
+    auto* dock = new QDockWidget(title, this);
+    dock->setObjectName(QLatin1String(name));
+    dock->setWidget(widget);
+    addDockWidget(Qt::BottomDockWidgetArea, dock);
+    tabifyDockWidget(docks_[3], dock);
+    docks_.push_back(dock);
+    interlockDocks_.push_back(dock);
+  };
+  add(tr("Boundary"), "boundary", boundary_);
+  add(tr("Free travel"), "travel", travel_);
+  add(tr("Limits"), "cell_tests", cellTests_);
+}
+
+void MainWindow::connectInterlock() {
+  auto* link = new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *cellTests_, this);
+  const auto run = [this](const std::string& study) {
+    if (!study.empty()) session_.run({study});
+  };
+  connect(boundary_, &panels::BoundaryPanel::runRequested, this, run);
+  connect(travel_, &panels::TravelPanel::runRequested, this, run);
+  connect(cellTests_, &panels::CellTestPanel::runRequested, this, run);
+  connect(link, &InterlockLink::resultGrows, this, [this](const std::string& type) {
+    interlockDocks_[type == "stretch_boundary" ? 0 : type == "free_travel" ? 1 : 2]->raise();
+  });
+  connect(boundary_, &panels::BoundaryPanel::exportRequested, this, [this] {
+    const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral("_boundary.png");
+    const QString file = QFileDialog::getSaveFileName(this, tr("Export the boundary"), name, boundaryFilters());
+    if (!file.isEmpty()) exportBoundaryTo(file);
+  });
+}
+
+void MainWindow::exportBoundaryTo(const QString& file) {
+  try {
+    writeBoundary(file, *boundary_);
+    report(base::Severity::information, tr("Exported to %1.").arg(file));
+  } catch (const base::InputError& error) {
+    report(base::Severity::warning, QString::fromStdString(error.what()));
+  }
+}
+
+void MainWindow::showInterlockDocks(bool shown) {
+  // Whether the docks at the bottom are tall already: what somebody made of that stays, scene by scene.
+  const bool before = interlockDocks_[0]->property("tall").toBool();
+  for (QDockWidget* dock : interlockDocks_) dock->setVisible(shown);
+  if (shown) interlockDocks_[0]->raise();
+  interlockDocks_[0]->setProperty("tall", shown);
+  if (shown != before)
+    resizeDocks({shown ? interlockDocks_[0] : docks_[3]},
+                {shown ? static_cast<int>(heightShare * height()) : plotHeight}, Qt::Vertical);
+}
+
+}  // namespace pliant::shell
