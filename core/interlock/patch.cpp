@@ -17,7 +17,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
 constexpr int mostElements = 4000;
 
 [[noreturn]] void failPatch(const std::string& problem) { throw base::InputError("", problem); }
@@ -42,18 +41,19 @@ void addTubeMoments(const ClosedCurve& curve, double radius, Moments& moments) {
   // The trapezoidal rule converges exponentially on closed smooth curves.
   constexpr int count = 720;
   for (int i = 0; i < count; ++i) {
-    const auto point = curve.at(2 * pi * i / count);
-    moments.add(pi * radius * radius * point.tangent.norm() * 2 * pi / count, point.place);
+    const auto point = curve.at(2 * std::numbers::pi * i / count);
+    moments.add(std::numbers::pi * radius * radius * point.tangent.norm() * 2 * pi / count, point.place);
   }
 }
 
 void addSimplexMoments(const SimplexSet& set, double radius, Moments& moments) {
   const auto corner = [&](int i) -> Vector3d { return set.corners.col(i); };
-  const double ball = 4.0 / 3 * pi * radius * radius * radius;
+  const double ball = 4.0 / 3 * std::numbers::pi * radius * radius * radius;
   for (const int i : set.points) moments.add(ball, corner(i));
   std::map<int, int> ends;  // segments that meet in a corner
   for (const auto& [from, to] : set.segments) {
-    moments.add(pi * radius * radius * (corner(to) - corner(from)).norm(), 0.5 * (corner(from) + corner(to)));
+    moments.add(
+        std::numbers::pi * radius * radius * (corner(to) - corner(from)).norm(), 0.5 * (corner(from) + corner(to)));
     ++ends[from], ++ends[to];
   }
   for (const auto& [i, count] : ends)
@@ -77,7 +77,7 @@ void addSimplexMoments(const SimplexSet& set, double radius, Moments& moments) {
     if (count != 1) continue;
     const double length = (corner(side[1]) - corner(side[0])).norm();
     const Vector3d middle = 0.5 * (corner(side[0]) + corner(side[1]));
-    moments.add(0.5 * pi * radius * radius * length, middle);
+    moments.add(0.5 * std::numbers::pi * radius * radius * length, middle);
     rim += length;
     rimMoment += length * middle;
   }

@@ -20,7 +20,7 @@ void addLimitHeads(CsvWriter& csv) {
     csv.add(column);
 }
 
-void addLimit(CsvWriter& csv, const interlock::BendingLimit& limit) {
+void addBendingLimit(CsvWriter& csv, const interlock::BendingLimit& limit) {
   csv.add(nameOf(limit.kind)).add(limit.curvature).add(limit.orthogonal);
   addComponents(csv, curvatureTensor(limit.equilibrium.state.strain));
   csv.add(limit.equilibrium.remaining).add(limit.equilibrium.meanGap).add(limit.remoteShare).add(limit.steepest);
@@ -76,7 +76,7 @@ void CurvatureLimitsResult::write(const std::filesystem::path& directory) const 
   for (const interlock::BendingLimits& limits : directions)
     for (const auto& [side, limit] : {std::pair{"up", &limits.up}, {"down", &limits.down}}) {
       csv.add(limit->angle).add(side);
-      addLimit(csv, *limit);
+      addBendingLimit(csv, *limit);
       csv.endRow();
     }
   folder.writeFile("curvature_limits.csv", csv.text());
@@ -93,7 +93,7 @@ void BendingSizeResult::write(const std::filesystem::path& directory) const {
   for (const Size& size : sizes)
     for (std::size_t i = 0; i < names.size(); ++i) {
       csv.add(size.radius).add(size.elements).add(names[i]);
-      addLimit(csv, size.limits[i]);
+      addBendingLimit(csv, size.limits[i]);
       csv.endRow();
     }
   folder.writeFile("bending_size.csv", csv.text());

@@ -1,6 +1,8 @@
 #include "core/scene/bending_studies.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
