@@ -17,16 +17,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Kind = BoundaryQuantity::Kind;
+using QuantityKind = BoundaryQuantity::Kind;
 
 /// All quantities, still without values.
 std::vector<BoundaryQuantity> emptyQuantities(Index count) {
-  std::vector<BoundaryQuantity> quantities{{"distance", "distance from\nthe middle", Kind::strain, {}},
-                                           {"remaining", "smaller gaps\ncould add", Kind::strain, {}},
-                                           {"gap", "mean gap over\nwire radius", Kind::number, {}},
-                                           {"contacts", "pairs of pieces\nin contact", Kind::count, {}},
-                                           {"iterations", "iterations", Kind::count, {}},
-                                           {"way", "how the limit\nwas reached", Kind::way, {}}};
+  std::vector<BoundaryQuantity> quantities{{"distance", "distance from\nthe middle", QuantityKind::strain, {}},
+                                           {"remaining", "smaller gaps\ncould add", QuantityKind::strain, {}},
+                                           {"gap", "mean gap over\nwire radius", QuantityKind::number, {}},
+                                           {"contacts", "pairs of pieces\nin contact", QuantityKind::count, {}},
+                                           {"iterations", "iterations", QuantityKind::count, {}},
+                                           {"way", "how the limit\nwas reached", QuantityKind::way, {}}};
   for (BoundaryQuantity& quantity : quantities)
     quantity.values.setConstant(count, std::numeric_limits<double>::quiet_NaN());
   return quantities;
@@ -40,7 +40,7 @@ void setQuantities(std::vector<BoundaryQuantity>& quantities, Index point, const
 double wayOf(bool raised, bool seesBeyond) { return seesBeyond ? 2 : raised ? 1 : 0; }
 
 /// Takes exact places and all quantities from the table beside the mesh, if that is the table of this mesh.
-void addTable(BoundarySurface& surface, const std::filesystem::path& folder) {
+void addLimitTable(BoundarySurface& surface, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder / "boundary.csv")) return;
   const CsvTable table(folder / "boundary.csv");
   if (static_cast<Index>(table.size()) != surface.points.cols()) return;
@@ -147,7 +147,7 @@ BoundarySurface readBoundarySurface(const std::filesystem::path& place) {
   surface.name = folder.filename().string();
   surface.known.assign(static_cast<std::size_t>(surface.points.cols()), true);
   try {
-    addTable(surface, folder);
+    addLimitTable(surface, folder);
   } catch (const Json::exception&) {
     throw base::InputError((folder / "summary.json").string(), "This summary is not one of a stretch_boundary study.");
   }

@@ -13,7 +13,7 @@ using base::InputError;
 
 namespace {
 
-base::TerminationType terminationNamed(std::string_view name) {
+base::TerminationType limitTerminationNamed(std::string_view name) {
   for (const auto type : {base::TerminationType::converged, base::TerminationType::cancelled,
                           base::TerminationType::iterationLimit, base::TerminationType::infeasible})
     if (base::toString(type) == name) return type;
@@ -30,7 +30,7 @@ Json readHead(const Scene& scene, const std::filesystem::path& directory, std::s
       std::none_of(cells.begin(), cells.end(), [&](const Json& cell) { return cell.at("name") == name; }))
     throw InputError(directory.string(), "This is no result of a " + std::string(type) + " study of this scene.");
   result.cell = std::make_shared<const interlock::UnitCell>(buildCell(scene, name));
-  result.termination = terminationNamed(summary.at("termination").get<std::string>());
+  result.termination = limitTerminationNamed(summary.at("termination").get<std::string>());
   result.message = summary.at("message");
   result.seconds = summary.at("seconds");
   const Json& from = summary.at("provenance");
@@ -121,7 +121,7 @@ std::shared_ptr<FreeTravelResult> readFreeTravel(const Scene& scene, const std::
         limit->angle = table.number(i, "direction [rad]");
         limit->strain = table.number(i, name);
         limit->equilibrium.remaining = table.number(i, name + "_remaining");
-        limit->equilibrium.termination = terminationNamed(table.text(i, name + "_termination"));
+        limit->equilibrium.termination = limitTerminationNamed(table.text(i, name + "_termination"));
       }
       result.directions.push_back(std::move(direction));
     }

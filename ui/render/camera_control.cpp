@@ -79,7 +79,8 @@ void CameraControl::fit() {
   const double aspect = size[0] > 0 && size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
   // The free rectangle of the window in units of half its width and height.
   const double rightEdge = 1.0 - margin - (size[0] > 0 ? 2.0 * std::min(rightMargin_ / size[0], 0.4) : 0.0);
-  const double width = rightEdge + 1.0 - margin, height = 2.0 - 2.0 * margin;
+  const double width = rightEdge + 1.0 - margin, top = size[1] > 0 ? std::min(topMargin_ / size[1], 0.3) : 0;
+  const double height = 2.0 - 2.0 * margin - 2.0 * top;
   const double middle = 0.5 * (rightEdge - 1.0 + margin);
 
   Eigen::Vector3d center = 0.5 * (low + high);
@@ -100,7 +101,7 @@ void CameraControl::fit() {
     distance *= scale;
     distance = std::max(distance, 0.6 * extent);
   }
-  const Eigen::Vector3d focus = center - middle * distance * tangent * aspect * right;
+  const Eigen::Vector3d focus = center - middle * distance * tangent * aspect * right + top * distance * tangent * up;
   const Eigen::Vector3d position = focus + distance * toCamera;
   camera->SetFocalPoint(focus.data());
   camera->SetPosition(position.data());

@@ -18,6 +18,8 @@ class CameraControl {
   void setReach(Points reach);
   /// Leaves this many pixels free on the right when fitting.
   void setRightMargin(double pixels) { rightMargin_ = pixels; }
+  /// The same at the top, for a caption of several lines.
+  void setTopMargin(double pixels) { topMargin_ = pixels; }
 
   /// Which axis points up: z, or y where gravity pulls against it. Counts from the next axis view on.
   void setUpAxis(bool isY) { upIsY_ = isY; }
@@ -41,6 +43,7 @@ class CameraControl {
   vtkRenderer* renderer_;
   Points reach_;
   double rightMargin_ = 0;
+  double topMargin_ = 0;
   bool upIsY_ = false;
 };
 

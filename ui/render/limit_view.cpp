@@ -17,6 +17,7 @@ namespace {
 
 constexpr int cells = 3;  ///< along each lattice vector
 constexpr int tints = 3;
+constexpr double captionRoom = 56;   ///< device-independent pixels
 constexpr double dashLength = 0.02;  ///< of the extent
 
 Color mixed(const Color& a, const Color& b, double part) {
@@ -85,6 +86,7 @@ struct LimitView::Parts {
     stage.onPixelRatio = [this] {
       for (LinePrimitive* lines : {&outline, &restOutline}) lines->setPixelRatio(stage.pixelRatio());
       marks.setPixelRatio(stage.pixelRatio());
+      stage.camera().setTopMargin(captionRoom * stage.pixelRatio());
     };
     stage.onField = [this] { applyTheme(); };
     show();
