@@ -42,7 +42,7 @@ void addTubeMoments(const ClosedCurve& curve, double radius, Moments& moments) {
   constexpr int count = 720;
   for (int i = 0; i < count; ++i) {
     const auto point = curve.at(2 * std::numbers::pi * i / count);
-    moments.add(std::numbers::pi * radius * radius * point.tangent.norm() * 2 * pi / count, point.place);
+    moments.add(std::numbers::pi * radius * radius * point.tangent.norm() * 2 * std::numbers::pi / count, point.place);
   }
 }
 
