@@ -11,6 +11,7 @@
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStackedLayout>
@@ -99,7 +100,12 @@ void BoundaryPanel::makeWidgets() {
 
 QWidget* BoundaryPanel::makeControls() {
   auto* controls = new QWidget;
-  controls->setFixedWidth(controlWidth);
+  // Scrolled where the dock is low, which they would otherwise keep high for all scenes.
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setFixedWidth(controlWidth);
   auto* form = new QFormLayout(controls);
   form->setContentsMargins(8, 8, 12, 8);
   form->setHorizontalSpacing(8);
@@ -148,7 +154,8 @@ QWidget* BoundaryPanel::makeControls() {
   exporter->setToolTip(tr("A picture of the surface (PNG), the surface (PLY and others), or its limits (CSV)"));
   connect(exporter, &QPushButton::clicked, this, &BoundaryPanel::exportRequested);
   form->addRow(QString(), exporter);
-  return controls;
+  area->setWidget(controls);
+  return area;
 }
 
 void BoundaryPanel::connectParts() {
