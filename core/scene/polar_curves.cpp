@@ -1,6 +1,7 @@
 #include "core/scene/polar_curves.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace pliant::scene {
 
@@ -29,6 +30,27 @@ PolarCurves freeTravelCurves(const FreeTravelResult& result) {
         first / shortest + second * (1 + direction.stretch.strain) / (shortest * shortest));
   }
   all.curves = {stretch, compression, travel};
+  return all;
+}
+
+PolarCurves curvatureLimitCurves(const CurvatureLimitsResult& result) {
+  PolarCurves all{result.provenance.study, "1/m", 1, 2, {}};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [side, member] :
+       {std::pair{"up", &interlock::BendingLimits::up}, std::pair{"down", &interlock::BendingLimits::down}}) {
+    PolarCurve along{std::string("bent ") + side, {}, {}, {}, true, false};
+    PolarCurve across{std::string("across, bent ") + side, {}, {}, {}, true, true};
+    for (const interlock::BendingLimits& direction : result.directions) {
+      const interlock::BendingLimit& limit = direction.*member;
+      const bool locked = limit.kind == interlock::BendingKind::locked;
+      for (PolarCurve* curve : {&along, &across}) curve->angles.push_back(limit.angle);
+      along.values.push_back(locked ? limit.curvature : none);
+      along.uncertain.push_back(locked ? limit.equilibrium.remaining : none);
+      across.values.push_back(locked ? limit.orthogonal : none);
+    }
+    all.curves.push_back(along);
+    all.curves.push_back(across);
+  }
   return all;
 }
 

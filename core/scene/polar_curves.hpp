@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/interlock_result.hpp"
+#include "core/scene/bending_result.hpp"
 
 namespace pliant::scene {
 
@@ -30,5 +30,9 @@ struct PolarCurves {
 /// Limits of stretch and of compression and the free travel between them, in per cent; without a limit where none was
 /// found.
 PolarCurves freeTravelCurves(const FreeTravelResult& result);
+
+/// Limits of curvature along directions, up and down, and the curvatures across that the patch takes on there, in 1/m
+/// (thesis Fig. 4.7); without a value where the patch folds.
+PolarCurves curvatureLimitCurves(const CurvatureLimitsResult& result);
 
 }  // namespace pliant::scene

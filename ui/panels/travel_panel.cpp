@@ -9,6 +9,7 @@
 #include <QStackedLayout>
 #include <QToolButton>
 #include <algorithm>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/scene/polar_curves.hpp"
@@ -21,7 +22,18 @@ namespace {
 
 constexpr int controlHeight = 28;
 
+/// None if there is nothing to show.
+std::optional<scene::PolarCurves> curvesOf(const scene::Result* result) {
+  if (const auto* travel = dynamic_cast<const scene::FreeTravelResult*>(result))
+    return scene::freeTravelCurves(*travel);
+  if (const auto* bending = dynamic_cast<const scene::CurvatureLimitsResult*>(result))
+    return scene::curvatureLimitCurves(*bending);
+  return std::nullopt;
+}
+
 }  // namespace
+
+bool TravelPanel::shows(const std::string& type) { return type == "free_travel" || type == "curvature_limits"; }
 
 TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
   auto* empty = new QWidget;
@@ -101,28 +113,30 @@ void TravelPanel::fillStudies() {
   const QString before = studies_->currentText();
   studies_->clear();
   for (const document::StudyState& study : document_.studies())
-    if (study.type == "free_travel") studies_->addItem(QString::fromStdString(study.name));
+    if (shows(study.type)) studies_->addItem(QString::fromStdString(study.name));
   studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
   studies_->setVisible(studies_->count() > 1);
 }
 
 void TravelPanel::refresh() {
   const document::StudyState* state = document_.study(study());
-  const auto result = state ? std::dynamic_pointer_cast<const scene::FreeTravelResult>(state->result) : nullptr;
+  const auto result = state ? state->result : nullptr;
+  const auto curves = curvesOf(result.get());
   const bool busy =
       state && (state->status == document::StudyStatus::running || state->status == document::StudyStatus::waiting);
   run_->setVisible(state != nullptr);
   run_->setEnabled(!busy);
   run_->setText(tr("Run %1").arg(studies_->currentText()));
-  note_->setText(!state ? tr("A study of the type free_travel finds how far an interlocking material stretches and "
-                             "compresses in each direction. This scene has none; add one in the scene's tree.")
-                 : busy ? tr("The limits are on their way.")
-                        : tr("The study “%1” finds how far this material stretches and compresses in each direction.")
-                              .arg(studies_->currentText()));
-  pages_->setCurrentIndex(result ? 1 : 0);
+  note_->setText(
+      !state ? tr("Studies of the types free_travel and curvature_limits find how far an interlocking "
+                  "material stretches, compresses or bends in each direction. This scene has none; add one "
+                  "in the scene's tree.")
+      : busy ? tr("The limits are on their way.")
+             : tr("The study “%1” finds the limits of this material in each direction.").arg(studies_->currentText()));
+  pages_->setCurrentIndex(curves ? 1 : 0);
   if (result != result_) {
     result_ = result;
-    plot_->setCurves(result ? scene::freeTravelCurves(*result) : scene::PolarCurves());
+    plot_->setCurves(curves.value_or(scene::PolarCurves()));
     refreshSwitches();
   }
   plot_->setStale(state && state->stale);

@@ -18,13 +18,16 @@ class PolarPlot;
 
 namespace pliant::panels {
 
-/// Limits of stretch and compression and the free travel between them over the direction (thesis Fig. 4.6), with what
-/// was measured.
+/// Limits of stretch and compression and the free travel between them over the direction (thesis Fig. 4.6), or limits
+/// of curvature (Fig. 4.7), with what was measured.
 class TravelPanel final : public QWidget {
   Q_OBJECT
 
  public:
   explicit TravelPanel(document::Document& document, QWidget* parent = nullptr);
+
+  /// Whether it shows results of studies of this type.
+  static bool shows(const std::string& type);
 
   std::string study() const;
   void setStudy(const std::string& name);
@@ -43,7 +46,7 @@ class TravelPanel final : public QWidget {
   void exportPlot();
 
   document::Document& document_;
-  std::shared_ptr<const scene::FreeTravelResult> result_;
+  std::shared_ptr<const scene::Result> result_;
   QStackedLayout* pages_;
   QLabel* note_;
   QPushButton* run_;

@@ -105,9 +105,9 @@ void InterlockLink::follow(const std::string& name) {
   const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
   if (study->type == "cell_test" && ended) {
     if (!study->stale) showTest(name);
-  } else if (grows_ != name && (!ended || study->type == "free_travel")) {
+  } else if (grows_ != name && (!ended || panels::TravelPanel::shows(study->type))) {
     if (study->type == "stretch_boundary") boundary_.setStudy(name);
-    if (study->type == "free_travel") travel_.setStudy(name);
+    if (panels::TravelPanel::shows(study->type)) travel_.setStudy(name);
     Q_EMIT resultGrows(study->type);
   }
   if (!ended) grows_ = name;

@@ -16,7 +16,7 @@ namespace pliant::shell {
 namespace {
 
 constexpr double heightShare = 0.54;  ///< of the window, that a boundary to be turned needs
-constexpr int plotHeight = 312;      ///< of the other docks at the bottom
+constexpr int plotHeight = 312;       ///< of the other docks at the bottom
 
 }  // namespace
 
@@ -34,7 +34,7 @@ void MainWindow::makeInterlockDocks() {
     interlockDocks_.push_back(dock);
   };
   add(tr("Boundary"), "boundary", boundary_);
-  add(tr("Free travel"), "travel", travel_);
+  add(tr("Directions"), "travel", travel_);
   add(tr("Limits"), "cell_tests", cellTests_);
 }
 
@@ -47,7 +47,7 @@ void MainWindow::connectInterlock() {
   connect(travel_, &panels::TravelPanel::runRequested, this, run);
   connect(cellTests_, &panels::CellTestPanel::runRequested, this, run);
   connect(link, &InterlockLink::resultGrows, this, [this](const std::string& type) {
-    interlockDocks_[type == "stretch_boundary" ? 0 : type == "free_travel" ? 1 : 2]->raise();
+    interlockDocks_[type == "stretch_boundary" ? 0 : panels::TravelPanel::shows(type) ? 1 : 2]->raise();
   });
   connect(boundary_, &panels::BoundaryPanel::exportRequested, this, [this] {
     const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral("_boundary.png");

@@ -9,6 +9,7 @@
 #include "core/scene/csv.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/polar_curves.hpp"
 #include "core/scene/study.hpp"
 
 using namespace pliant;
@@ -91,6 +92,24 @@ class TestBendingScenes : public QObject {
       QVERIFY(edge.triangles[0] >= 0 && edge.triangles[1] >= 0);
     QVERIFY(std::filesystem::exists(folder / "bend/patch.ply") &&
             std::filesystem::exists(folder / "bend/elements.csv"));
+  }
+
+  /// Curves in all directions: up and down, along and across; a fold leaves a gap.
+  void polarCurves() {
+    auto result = std::make_shared<scene::CurvatureLimitsResult>(
+        *std::dynamic_pointer_cast<const scene::CurvatureLimitsResult>(resultOf(sceneText, "limits")));
+    result->directions[1].down.kind = interlock::BendingKind::folded;
+    const scene::PolarCurves all = scene::curvatureLimitCurves(*result);
+    QCOMPARE(all.unit, std::string("1/m"));
+    QCOMPARE(all.curves.size(), std::size_t(4));
+    for (std::size_t i = 0; i < 2; ++i) {
+      const interlock::BendingLimits& limits = result->directions[i];
+      for (const scene::PolarCurve& curve : all.curves) QCOMPARE(curve.angles[i], limits.up.angle);
+      QCOMPARE(all.curves[0].values[i], limits.up.curvature);
+      QCOMPARE(all.curves[1].values[i], limits.up.orthogonal);
+      QVERIFY(i == 1 ? std::isnan(all.curves[2].values[i]) : all.curves[2].values[i] == limits.down.curvature);
+      QVERIFY(i == 1 ? std::isnan(all.curves[3].values[i]) : all.curves[3].values[i] == limits.down.orthogonal);
+    }
   }
 
   /// A strip that hangs from one side: what the clamped elements carry is the weight of the others.
