@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/interlock_pictures.hpp"
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/scene/patch_export.hpp"
@@ -30,9 +31,11 @@ std::string length(double value) { return base::formatQuantity(value, dimensions
 bool isPatch(const MotionOptions& options) { return scene::isFabric(scene::Scene::load(options.scene)); }
 
 ExitStatus exportPatch(const MotionOptions& options, const PatchSettings& settings) {
-  if (!options.result.empty())
+  if (!options.result.empty()) {
+    if (const auto status = exportBoundary(options)) return *status;
     throw base::InputError(
         "--result", "Limit states of interlocking materials are computed anew; name the study only.");
+  }
   const auto scene = scene::Scene::load(options.scene);
   scene::PatchRequest request;
   request.cell = settings.cell;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/interlock/limit_grid.hpp"
 #include "core/interlock/boundary_file.hpp"
+#include "core/interlock/limit_grid.hpp"
 #include "core/interlock/strain_space_boundary.hpp"
 #include "core/scene/study.hpp"
 

@@ -23,7 +23,7 @@ using scene::BoundarySurface;
 
 constexpr double comparedOpacity = 0.4, planeOpacity = 0.16;
 constexpr double seenThrough = 0.9;  ///< opacity from which on what is behind is hidden
-constexpr double labelRoom = 0.1;   ///< that numbers take around the box, of its extent
+constexpr double labelRoom = 0.1;    ///< that numbers take around the box, of its extent
 /// Of BoundaryQuantity::Kind::way: Okabe and Ito's blue, orange and reddish purple.
 constexpr std::array<Color, 3> wayColors{{{0.0, 0.447, 0.698}, {0.902, 0.624, 0.0}, {0.8, 0.475, 0.655}}};
 constexpr std::array<const char*, 3> wayNames{"■ straight", "■ raised by\n    a neighbour", "■ not\n    star-shaped"};

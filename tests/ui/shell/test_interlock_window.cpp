@@ -33,7 +33,7 @@ constexpr const char* netScene = R"({
     {"name": "stretch", "type": "cell_test", "cell": "net", "direction": "90 deg"},
     {"name": "travel", "type": "free_travel", "cell": "net", "directions": 6},
     {"name": "boundary", "type": "stretch_boundary", "cell": "net", "subdivisions": 1, "test_star_shape": false},
-    {"name": "long", "type": "stretch_boundary", "cell": "net", "subdivisions": 2,
+    {"name": "long", "type": "stretch_boundary", "cell": "net", "subdivisions": 2, "use_symmetries": false,
      "test_star_shape": false}
   ]
 })";
