@@ -62,6 +62,7 @@ CellEquilibrium farthestBend(const PatchSolver& solver, const CellState& start, 
     const bool folds = next.converged() && judged(solver, 0, next).kind == BendingKind::folded;
     const double reached =
         folds ? std::numeric_limits<double>::infinity() : drive.load.dot(next.state.strain - start.strain);
+    const bool ends = folds || next.termination == base::TerminationType::cancelled;
     next.iterations += best.iterations;
     if (trial == 0 || (next.converged() && (reached > farthest || !best.converged()))) {
       best = std::move(next);
@@ -69,7 +70,7 @@ CellEquilibrium farthestBend(const PatchSolver& solver, const CellState& start, 
     } else {
       best.iterations = next.iterations;
     }
-    if (folds || next.termination == base::TerminationType::cancelled) break;
+    if (ends) break;
   }
   return best;
 }

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix2Xd;
 using Eigen::Vector2d;
 
-constexpr double mostElements = 1e6;
+constexpr double mostExportedElements = 1e6;
 
 /// By crossings of the ray along x.
 bool isInside(const Matrix2Xd& polygon, const Vector2d& place) {
@@ -58,7 +58,7 @@ FabricPatch largestGroup(const UnitCell& cell, std::vector<PatchElement> element
 }
 
 void refuseSize(double count) {
-  if (!(count <= mostElements)) throw base::InputError("", "the patch would have more than a million elements");
+  if (!(count <= mostExportedElements)) throw base::InputError("", "the patch would have more than a million elements");
 }
 
 }  // namespace

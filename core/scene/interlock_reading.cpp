@@ -23,7 +23,7 @@ base::TerminationType limitTerminationNamed(std::string_view name) {
 /// The summary's head; the cell is that of the scene.
 Json readHead(const Scene& scene, const std::filesystem::path& directory, std::string_view type,
               InterlockResult& result) {
-  const Json summary = parseJson(readTextFile(directory / "summary.json"));
+  Json summary = parseJson(readTextFile(directory / "summary.json"));
   const std::string name = summary.at("cell");
   const Json& cells = scene.normalized().at("interlocking_cells");
   if (summary.at("type") != type ||
