@@ -36,6 +36,8 @@ class InterlockLink final : public QObject {
   /// The configuration at a limit of the boundary on show; -1: the material at rest.
   void showState(int state);
   render::LimitView& view() { return *view_; }
+  /// Shows the material as it is pulled again, no limit.
+  void leave();
   bool isShown() const;
 
  Q_SIGNALS:
@@ -45,7 +47,6 @@ class InterlockLink final : public QObject {
  private:
   void follow(const std::string& name);
   void show(std::shared_ptr<const render::CellConfiguration> configuration, const QString& caption);
-  void leave();
   void refreshStale();
 
   document::Document& document_;

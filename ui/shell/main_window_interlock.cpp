@@ -1,3 +1,4 @@
+#include <QAction>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -40,6 +41,7 @@ void MainWindow::makeInterlockDocks() {
 
 void MainWindow::connectInterlock() {
   auto* link = new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *cellTests_, this);
+  connect(actions_.find(QStringLiteral("cell.reset")), &QAction::triggered, link, &InterlockLink::leave);
   const auto run = [this](const std::string& study) {
     if (!study.empty()) session_.run({study});
   };

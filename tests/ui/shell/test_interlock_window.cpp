@@ -193,6 +193,8 @@ class TestInterlockWindow : public QObject {
     QVERIFY(!limit());
     table->setCurrentCell(1, 0);
     QVERIFY(limit() != nullptr);
+    window_->actions().find("cell.reset")->trigger();
+    QVERIFY(!limit());
   }
 
   void freeTravelIsPlotted() {
