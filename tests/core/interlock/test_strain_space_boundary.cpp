@@ -44,8 +44,9 @@ class KilledMemory final : public BoundaryMemory {
       : file_(file), left_(after), context_(context) {}
   bool recall(const std::string& name, BoundaryState& state) override { return file_.recall(name, state); }
   void keep(const std::string& name, const BoundaryState& state) override {
-    if (left_-- > 0) file_.keep(name, state);
-    if (left_ == 0) context_.requestCancel();
+    const int left = --left_;  // of one thread among several
+    if (left >= 0) file_.keep(name, state);
+    if (left <= 0) context_.requestCancel();
   }
 
  private:
