@@ -139,6 +139,14 @@ void printInterlock(const Json& summary) {
   if (summary.contains("strain"))
     std::cout << "  limit " << percent(summary["strain"]) << ", " << summary["rest"].get<std::string>() << " by "
               << summary["contacts"] << " contacts, smaller gaps could add " << percent(summary["remaining"]) << "\n";
+  if (summary.contains("outcome")) {
+    std::cout << "  " << summary["outcome"].get<std::string>();
+    if (summary["curvature_limit"].is_null())
+      std::cout << ", no limit\n";
+    else
+      std::cout << " at " << base::formatQuantity(summary["curvature_limit"].get<double>(), {}) << " 1/m, across "
+                << base::formatQuantity(summary["orthogonal_curvature"].get<double>(), {}) << " 1/m\n";
+  }
   for (const char* key : {"stretch", "compression", "free_travel"})
     if (summary.contains(key) && summary[key].contains("smallest"))
       std::cout << "  " << key << " " << percent(summary[key]["smallest"]) << " to " << percent(summary[key]["largest"])

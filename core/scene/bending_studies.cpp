@@ -6,14 +6,12 @@
 #include <numbers>
 #include <optional>
 
-#include "core/base/stopwatch.hpp"
 #include "core/interlock/bending_boundary.hpp"
 #include "core/math/parallel.hpp"
 #include "core/scene/bending_result.hpp"
 #include "core/scene/boundary_shards.hpp"
 #include "core/scene/input_error_location.hpp"
-#include "core/scene/interlock_builder.hpp"
-#include "core/scene/run_information.hpp"
+#include "core/scene/interlock_study.hpp"
 #include "core/scene/sharded_study.hpp"
 
 namespace pliant::scene {
@@ -31,17 +29,10 @@ std::string pointerOfStudy(const Scene& scene, const Json& options) {
   return "/studies/" + std::to_string(index);
 }
 
-class PatchStudy : public Study {
+class PatchStudy : public InterlockStudy {
  public:
   PatchStudy(const Scene& scene, const Json& options)
-      : cell_(std::make_shared<const interlock::UnitCell>(buildCell(scene, options["cell"]))),
-        options_(options),
-        directory_(scene.directory()),
-        place_(scene.name() + ": " + pointerOfStudy(scene, options)),
-        provenance_(provenanceOf(scene, options)) {}
-
-  std::string name() const override { return options_["name"]; }
-  std::string type() const override { return options_["type"]; }
+      : InterlockStudy(scene, options), place_(scene.name() + ": " + pointerOfStudy(scene, options)) {}
 
  protected:
   std::shared_ptr<const interlock::UnitCell> cut(const interlock::PatchOutline& outline) const {
@@ -64,8 +55,7 @@ class PatchStudy : public Study {
   }
 
   interlock::EquilibriumOptions equilibriumOptions() const {
-    interlock::EquilibriumOptions options;
-    options.finalGap = options_["final_gap"];
+    interlock::EquilibriumOptions options = InterlockStudy::equilibriumOptions();
     options.looseTolerance = 1;
     options.maximumIterations = 2000;
     return options;
@@ -73,10 +63,7 @@ class PatchStudy : public Study {
 
   interlock::BendingOptions bendingOptions() const {
     interlock::BendingOptions options;
-    const std::string lateral = options_.value("lateral", "principal");
-    options.lateral = lateral == "held"   ? interlock::Lateral::held
-                      : lateral == "free" ? interlock::Lateral::free
-                                          : interlock::Lateral::principal;
+    if (options_.contains("lateral")) options.lateral = lateral();
     options.increment = options_["increment"];
     options.perturbation = options_["perturbation"];
     options.seed = options_["seed"];
@@ -84,19 +71,8 @@ class PatchStudy : public Study {
     return options;
   }
 
-  template <class AnyResult>
-  void finish(AnyResult& result, TerminationType termination, const std::string& message,
-              const base::Stopwatch& watch) const {
-    result.cell = cell_;
-    result.provenance = provenance_;
-    result.termination = termination;
-    result.message = message;
-    result.seconds = watch.seconds();
-  }
-
   /// A fold is an answer too: that there is no limit. Only where contact did not settle the study has failed.
-  template <class AnyResult>
-  void finishLimits(AnyResult& result, const std::vector<const BendingLimit*>& limits,
+  void finishLimits(InterlockResult& result, const std::vector<const BendingLimit*>& limits,
                     const base::Stopwatch& watch) const {
     for (const BendingLimit* limit : limits)
       if (!limit->equilibrium.converged())
@@ -104,11 +80,7 @@ class PatchStudy : public Study {
     finish(result, TerminationType::converged, "", watch);
   }
 
-  std::shared_ptr<const interlock::UnitCell> cell_;
-  Json options_;
-  std::filesystem::path directory_;
   std::string place_;
-  Provenance provenance_;
 };
 
 class BendingTestStudy final : public PatchStudy {
@@ -235,9 +207,6 @@ class BendingBoundaryStudy final : public PatchStudy, public ShardedStudy {
     options.testStarShape = options_["test_star_shape"];
     return options;
   }
-
-  /// What kept limits hold for.
-  std::string key() const { return provenance_.version + " " + provenance_.sceneHash + " " + options_.dump(); }
 
   std::shared_ptr<const BendingBoundaryResult> resultOf(interlock::BoundaryMemory* memory, int recalled,
                                                         base::ExecutionContext& context) const {

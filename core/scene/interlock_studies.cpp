@@ -4,12 +4,10 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/scene/boundary_shards.hpp"
-#include "core/scene/interlock_builder.hpp"
 #include "core/scene/interlock_result.hpp"
+#include "core/scene/interlock_study.hpp"
 #include "core/scene/resumable_study.hpp"
-#include "core/scene/run_information.hpp"
 #include "core/scene/sharded_study.hpp"
 
 namespace pliant::scene {
@@ -18,49 +16,20 @@ using base::TerminationType;
 
 namespace {
 
-interlock::Lateral lateralNamed(const std::string& name) {
-  if (name == "principal") return interlock::Lateral::principal;
-  if (name == "biaxial") return interlock::Lateral::biaxial;
-  return name == "held" ? interlock::Lateral::held : interlock::Lateral::free;
-}
-
-class InterlockStudy : public Study {
+/// A study of limits of a cell.
+class LimitStudy : public InterlockStudy {
  public:
-  /// The model, which a cell has no part in, is not used.
-  InterlockStudy(const Scene& scene, const std::shared_ptr<const mechanics::Model>&, const Json& options)
-      : cell_(std::make_shared<const interlock::UnitCell>(buildCell(scene, options["cell"]))),
-        options_(options),
-        directory_(scene.directory()),
-        provenance_(provenanceOf(scene, options)) {}
-
-  std::string name() const override { return options_["name"]; }
-  std::string type() const override { return options_["type"]; }
+  using InterlockStudy::InterlockStudy;
 
  protected:
-  interlock::EquilibriumOptions equilibriumOptions() const {
-    interlock::EquilibriumOptions options;
-    options.finalGap = options_["final_gap"];
-    return options;
-  }
-
   interlock::LimitOptions limitOptions() const {
     interlock::LimitOptions options;
-    options.lateral = lateralNamed(options_["lateral"]);
+    options.lateral = lateral();
     options.ratio = options_["ratio"];
     options.perturbation = options_["perturbation"];
     options.seed = options_["seed"];
     options.trials = options_["trials"];
     return options;
-  }
-
-  template <class AnyResult>
-  void finish(AnyResult& result, TerminationType termination, const std::string& message,
-              const base::Stopwatch& watch) const {
-    result.cell = cell_;
-    result.provenance = provenance_;
-    result.termination = termination;
-    result.message = message;
-    result.seconds = watch.seconds();
   }
 
   /// Termination and message of one limit: without any it is no result.
@@ -69,16 +38,11 @@ class InterlockStudy : public Study {
       return {TerminationType::infeasible, "nothing limits this deformation"};
     return {limit.equilibrium.termination, limit.equilibrium.message};
   }
-
-  std::shared_ptr<const interlock::UnitCell> cell_;
-  Json options_;
-  std::filesystem::path directory_;
-  Provenance provenance_;
 };
 
-class CellTestStudy final : public InterlockStudy {
+class CellTestStudy final : public LimitStudy {
  public:
-  using InterlockStudy::InterlockStudy;
+  using LimitStudy::LimitStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
@@ -94,9 +58,9 @@ class CellTestStudy final : public InterlockStudy {
   }
 };
 
-class FreeTravelStudy final : public InterlockStudy {
+class FreeTravelStudy final : public LimitStudy {
  public:
-  using InterlockStudy::InterlockStudy;
+  using LimitStudy::LimitStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
@@ -187,9 +151,6 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy, p
     return options;
   }
 
-  /// What kept limits hold for.
-  std::string key() const { return provenance_.version + " " + provenance_.sceneHash + " " + options_.dump(); }
-
   /// `session`: for a later run to go on from, if this one is cancelled.
   std::shared_ptr<const StretchBoundaryResult> resultOf(interlock::BoundaryMemory& memory, int recalled,
                                                         const std::shared_ptr<interlock::KnownStates>& session,
@@ -221,24 +182,24 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy, p
 
 }  // namespace
 
-std::unique_ptr<Study> makeCellTestStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+std::unique_ptr<Study> makeCellTestStudy(const Scene& scene, std::shared_ptr<const mechanics::Model>,
                                          const Json& options) {
-  return std::make_unique<CellTestStudy>(scene, std::move(model), options);
+  return std::make_unique<CellTestStudy>(scene, options);
 }
 
-std::unique_ptr<Study> makeFreeTravelStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+std::unique_ptr<Study> makeFreeTravelStudy(const Scene& scene, std::shared_ptr<const mechanics::Model>,
                                            const Json& options) {
-  return std::make_unique<FreeTravelStudy>(scene, std::move(model), options);
+  return std::make_unique<FreeTravelStudy>(scene, options);
 }
 
-std::unique_ptr<Study> makeStretchBoundaryStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+std::unique_ptr<Study> makeStretchBoundaryStudy(const Scene& scene, std::shared_ptr<const mechanics::Model>,
                                                 const Json& options) {
-  return std::make_unique<StretchBoundaryStudy>(scene, std::move(model), options);
+  return std::make_unique<StretchBoundaryStudy>(scene, options);
 }
 
-std::unique_ptr<Study> makeStretchGridStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+std::unique_ptr<Study> makeStretchGridStudy(const Scene& scene, std::shared_ptr<const mechanics::Model>,
                                             const Json& options) {
-  return std::make_unique<StretchGridStudy>(scene, std::move(model), options);
+  return std::make_unique<StretchGridStudy>(scene, options);
 }
 
 }  // namespace pliant::scene
