@@ -1,11 +1,22 @@
 #include "ui/shell/card.hpp"
 
+#include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QVBoxLayout>
 #include <algorithm>
 
 namespace pliant::shell {
+
+namespace {
+
+int cardColumns(int width) {
+  const int room = std::max(width, 640) - 2 * galleryMargin;
+  return std::max(1, (room + cardGap) / (cardSize.width() + cardGap));
+}
+
+}  // namespace
 
 QPushButton* makeCard(const QString& titleText, const QString& descriptionText, QLabel*& picture) {
   auto* card = new QPushButton;
@@ -35,9 +46,24 @@ QPushButton* makeCard(const QString& titleText, const QString& descriptionText, 
   return card;
 }
 
-int cardColumns(int width) {
-  const int room = std::max(width, 640) - 2 * galleryMargin;
-  return std::max(1, (room + cardGap) / (cardSize.width() + cardGap));
+void layOutCards(QGridLayout& grid, const std::vector<QPushButton*>& cards, int width) {
+  const int columns = cardColumns(width);
+  if (grid.columnStretch(columns) == 1) return;  // as they are
+  for (int i = 0; i < static_cast<int>(cards.size()); ++i)
+    grid.addWidget(cards[static_cast<std::size_t>(i)], i / columns, i % columns);
+  for (int i = 0; i < grid.columnCount(); ++i) grid.setColumnStretch(i, 0);
+  grid.setColumnStretch(columns, 1);
+  grid.setRowStretch(static_cast<int>(cards.size()), 1);
+}
+
+QScrollArea* makeCardArea(QWidget* cards) {
+  auto* area = new QScrollArea;
+  area->setWidget(cards);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->viewport()->setBackgroundRole(QPalette::Base);
+  cards->setBackgroundRole(QPalette::Base);
+  return area;
 }
 
 }  // namespace pliant::shell

@@ -2,10 +2,12 @@
 
 #include <QSize>
 #include <QString>
+#include <vector>
 
 class QGridLayout;
 class QLabel;
 class QPushButton;
+class QScrollArea;
 class QWidget;
 
 namespace pliant::shell {
@@ -16,7 +18,10 @@ inline constexpr int cardGap = 16, galleryMargin = 48;
 
 QPushButton* makeCard(const QString& title, const QString& description, QLabel*& picture);
 
-/// How many cards stand side by side in a gallery of this width.
-int cardColumns(int width);
+/// Puts cards side by side, as many in a row as a gallery of this width has room for.
+void layOutCards(QGridLayout& grid, const std::vector<QPushButton*>& cards, int width);
+
+/// The cards, to be scrolled on the gallery's background.
+QScrollArea* makeCardArea(QWidget* cards);
 
 }  // namespace pliant::shell

@@ -52,7 +52,6 @@ class ElementGallery final : public QWidget {
   QGridLayout* grid_;
   std::vector<Card> cards_;
   int target_ = -1;
-  int columns_ = 0;
 };
 
 /// Opens a scene of one kind of material that is no file yet. Throws base::InputError.

@@ -79,19 +79,13 @@ Gallery::Gallery(jobs::JobRunner& quick, QWidget* parent) : QWidget(parent), qui
   }
   layOut();
   drawPictures();
-  auto* scroll = new QScrollArea;
-  scroll->setWidget(cards);
-  scroll->setWidgetResizable(true);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->viewport()->setBackgroundRole(QPalette::Base);
-  cards->setBackgroundRole(QPalette::Base);
 
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(galleryMargin, 40, galleryMargin, 40);
   column->setSpacing(16);
   column->addWidget(head);
   column->addLayout(line);
-  column->addWidget(scroll, 1);
+  column->addWidget(makeCardArea(cards), 1);
 }
 
 void Gallery::drawPictures() {
@@ -111,14 +105,9 @@ void Gallery::drawPictures() {
 }
 
 void Gallery::layOut() {
-  const int columns = cardColumns(width());
-  if (columns == columns_) return;
-  for (std::size_t i = 0; i < cards_.size(); ++i)
-    grid_->addWidget(cards_[i].button, static_cast<int>(i) / columns, static_cast<int>(i) % columns);
-  grid_->setColumnStretch(columns_, 0);
-  grid_->setColumnStretch(columns, 1);
-  grid_->setRowStretch(static_cast<int>(cards_.size()), 1);
-  columns_ = columns;
+  std::vector<QPushButton*> buttons;
+  for (const Card& card : cards_) buttons.push_back(card.button);
+  layOutCards(*grid_, buttons, width());
 }
 
 void Gallery::changeEvent(QEvent* event) {

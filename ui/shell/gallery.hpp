@@ -51,7 +51,6 @@ class Gallery final : public QWidget {
   jobs::JobRunner& quick_;
   std::vector<Card> cards_;
   QGridLayout* grid_ = nullptr;
-  int columns_ = 0;
 };
 
 }  // namespace pliant::shell
