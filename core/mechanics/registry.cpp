@@ -4,6 +4,7 @@
 
 #include "core/geometry/mesh_generators.hpp"
 #include "core/geometry/tet_mesh.hpp"
+#include "core/mechanics/admissible_strain_set.hpp"
 #include "core/mechanics/family_parameter.hpp"
 #include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
@@ -12,6 +13,7 @@
 #include "core/mechanics/shell.hpp"
 #include "core/mechanics/solid.hpp"
 #include "core/mechanics/spring.hpp"
+#include "core/mechanics/strain_limits.hpp"
 
 namespace pliant::mechanics {
 
@@ -59,6 +61,37 @@ Model hingeExample(std::mt19937& random, int) {
   Triangles triangles;
   Model model = randomPatch(random, 3, triangles);
   model.energies.push_back(makeHingeBending(model.restPositions, triangles, randomMaterial(random)));
+  model.finish();
+  return model;
+}
+
+/// An octahedron whose corners are about `radius` from a middle near 0.
+std::shared_ptr<const AdmissibleStrainSet> randomStrainSet(std::mt19937& random, double radius) {
+  const Eigen::Vector3d middle = randomVector(random, 3, 0.1 * radius);
+  geometry::SurfaceMesh boundary;
+  boundary.points.resize(3, 6);
+  for (int i = 0; i < 6; ++i)
+    boundary.points.col(i) =
+        middle + uniform(random, 0.8, 1.2) * radius * (i % 2 ? -1 : 1) * Eigen::Vector3d::Unit(i / 2);
+  boundary.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return std::make_shared<const AdmissibleStrainSet>(std::move(boundary), middle);
+}
+
+/// A patch of which some triangles have limits: of all sizes that occur for a penalty, wide ones for a barrier.
+Model strainLimitExample(std::mt19937& random, StrainLimitFunction::Kind function, bool ofCurvature) {
+  Triangles triangles;
+  Model model = randomPatch(random, 3, triangles);
+  const bool isBarrier = function == StrainLimitFunction::Kind::barrier;
+  const double radius = ofCurvature ? (isBarrier ? 120 : 9) : (isBarrier ? 3 : 0.1);
+  std::vector<LimitedTriangle> limited;
+  for (const std::array<int, 3>& nodes : triangles) {
+    LimitedTriangle& triangle = limited.emplace_back();
+    triangle.nodes = nodes;
+    for (int i = 0; i < 3; ++i) triangle.rest.col(i) = model.restPositions.segment<2>(3 * nodes[i]);
+    if (limited.size() % 4 != 0) (ofCurvature ? triangle.bending : triangle.stretch) = randomStrainSet(random, radius);
+  }
+  const StrainLimitFunction limit{function, uniform(random, 0.5, 2)};
+  model.energies.push_back(ofCurvature ? makeCurvatureLimit(limited, limit) : makeStretchLimit(limited, limit));
   model.finish();
   return model;
 }
@@ -252,6 +285,13 @@ const std::vector<EnergyKind>& energyKinds() {
     list.push_back(kind("servo", 2, servoExample));
     list.push_back(kind("servo", 3, servoExample));
     list.push_back(kind("hinge_bending", 3, hingeExample));
+    for (const bool ofCurvature : {false, true})
+      for (const auto function : {StrainLimitFunction::Kind::barrier, StrainLimitFunction::Kind::penalty})
+        list.push_back(kind(std::string(ofCurvature ? "curvature" : "stretch") + "_limit by " +
+                                (function == StrainLimitFunction::Kind::barrier ? "barrier" : "penalty"),
+                            3, [function, ofCurvature](std::mt19937& random, int) {
+                              return strainLimitExample(random, function, ofCurvature);
+                            }));
     list.push_back(kind("rod", 3, rodExample));
     list.push_back(kind("solid", 3, solidExample));
     return list;

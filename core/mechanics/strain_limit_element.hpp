@@ -1,0 +1,85 @@
+#pragma once
+
+#include "core/mechanics/admissible_strain_set.hpp"
+#include "core/mechanics/element_energy.hpp"
+#include "core/mechanics/hinge_element.hpp"
+#include "core/mechanics/strain_limits.hpp"
+
+namespace pliant::mechanics {
+
+/// ψ of strain limits and its derivatives; infinite where a barrier has no value.
+StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitFunction& function,
+                              const Eigen::Vector3d& strain);
+
+/// What both kinds of elements do to be evaluated for several configurations at once: one after the other.
+/// `Derived` has evaluateOne, of doubles.
+template <class Derived, int count>
+struct StrainLimitElement {
+  static constexpr int coordinates = count;
+  template <class T>
+  using Gradient = std::array<T, count>;
+  template <class T>
+  using Hessian = std::array<T, packedSize(count)>;
+
+  std::shared_ptr<const AdmissibleStrainSet> set;
+  StrainLimitFunction function;
+  double area = 0;  ///< [m²]
+
+  double evaluate(const Gradient<double>& x, Gradient<double>* gradient, Hessian<double>* hessian) const {
+    return own().evaluateOne(x, gradient, hessian);
+  }
+
+  math::Packet evaluate(const Gradient<math::Packet>& x, Gradient<math::Packet>* gradient,
+                        Hessian<math::Packet>* hessian) const {
+    constexpr int width = math::Packet::width;
+    alignas(64) double values[width], gradients[count][width], hessians[packedSize(count)][width];
+    for (int lane = 0; lane < width; ++lane) {
+      Gradient<double> at, slope;
+      Hessian<double> second;
+      for (int i = 0; i < count; ++i) at[i] = x[i][lane];
+      values[lane] = own().evaluateOne(at, gradient ? &slope : nullptr, hessian ? &second : nullptr);
+      for (int i = 0; gradient && i < count; ++i) gradients[i][lane] = slope[i];
+      for (int i = 0; hessian && i < packedSize(count); ++i) hessians[i][lane] = second[i];
+    }
+    for (int i = 0; gradient && i < count; ++i) math::load(gradients[i], (*gradient)[i]);
+    for (int i = 0; hessian && i < packedSize(count); ++i) math::load(hessians[i], (*hessian)[i]);
+    math::Packet value;
+    math::load(values, value);
+    return value;
+  }
+
+ private:
+  const Derived& own() const { return static_cast<const Derived&>(*this); }
+};
+
+/// area ψ(s) of the Green strain of a triangle, s = L (a - a₀) with the metric a of its edges as in MembraneElement.
+struct StretchLimitElement : StrainLimitElement<StretchLimitElement, 9> {
+  static constexpr std::string_view name = "stretch_limit";
+
+  Eigen::Vector3d restMetric;
+  Eigen::Matrix3d strainOfMetric;  ///< L [1/m²]
+
+  Eigen::Vector3d strain(const std::array<double, 9>& x) const;
+  double evaluateOne(const std::array<double, 9>& x, std::array<double, 9>* gradient,
+                     std::array<double, packedSize(9)>* hessian) const;
+};
+
+/// area ψ(Λ) of the curvature Λ of a triangle in the rest metric (Gingold et al. 2004, as thesis 4.3.4),
+///   Λ = -Σ_i θ_i / (2 A l_i) t_i ⊗ t_i
+/// over its edges of length l_i, with the angle θ_i to the neighbour there (HingeElement, whose θ is positive where the
+/// neighbour hangs back from the triangle's normal) and the edge's outward normal t_i in the plane, |t_i| = l_i. Λ is
+/// positive where the sheet curves towards the normal. Corners: those of the triangle, then the neighbours' corners
+/// opposite edge i, which lies opposite corner i; where there is no neighbour θ_i = 0, and corner i stands in its
+/// place.
+struct CurvatureLimitElement : StrainLimitElement<CurvatureLimitElement, 18> {
+  static constexpr std::string_view name = "curvature_limit";
+
+  std::array<bool, 3> hasNeighbour{};
+  Eigen::Matrix3d curvatureOfAngles;  ///< columns: Λ of each θ_i [1/m]
+
+  Eigen::Vector3d curvature(const std::array<double, 18>& x) const;
+  double evaluateOne(const std::array<double, 18>& x, std::array<double, 18>* gradient,
+                     std::array<double, packedSize(18)>* hessian) const;
+};
+
+}  // namespace pliant::mechanics
