@@ -1,0 +1,99 @@
+#pragma once
+
+#include "core/base/execution_context.hpp"
+#include "core/base/solver_report.hpp"
+#include "core/geometry/surface_mesh.hpp"
+#include "core/mechanics/admissible_strain_set.hpp"
+#include "core/mechanics/strain_limits.hpp"
+#include "core/solvers/energy_minimizer.hpp"
+
+namespace pliant::interlock {
+
+using mechanics::Vector;
+
+/// An interlocking material at the scale of large pieces: what strains it can reach, and a weak elastic base that says
+/// what it does in between (thesis 4.3.4, whose numbers are the defaults).
+struct MacroMaterial {
+  std::shared_ptr<const mechanics::AdmissibleStrainSet> stretch;  ///< Green strain; null: no limit
+  std::shared_ptr<const mechanics::AdmissibleStrainSet> bending;  ///< curvature [1/m]; null: no limit
+  double youngModulus = 1250;                                     ///< [Pa]
+  double poissonRatio = 0.4;
+  double density = 250;     ///< [kg/m³]
+  double thickness = 5e-3;  ///< [m]
+};
+
+/// A flat piece, of one material or several.
+struct MacroSheet {
+  geometry::SurfaceMesh mesh;  ///< at rest in z = 0, counterclockwise from above
+  std::vector<MacroMaterial> materials;
+  std::vector<int> materialOf;  ///< per triangle; empty: the first
+  std::vector<double> angleOf;  ///< of the material's first axis, per triangle [rad]; empty: 0
+};
+
+struct MacroLoads {
+  Vector force;                                       ///< on all coordinates [N]; empty: none
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
+  std::vector<int> clamped;                           ///< nodes that do not move
+};
+
+struct MacroOptions {
+  mechanics::StrainLimitFunction::Kind limits = mechanics::StrainLimitFunction::Kind::barrier;
+  double penalty = 1e7;     ///< c of the penalty [J/m²] (thesis 4.3.5)
+  double tolerance = 1e-8;  ///< see EnergyMinimizerOptions
+  /// The barrier shrinks until what it could still yield is below this fraction of the work that loads have done.
+  double remaining = 1e-5;
+  int maximumIterations = 500;  ///< of each barrier
+};
+
+/// The sheet at rest under its loads, and how near its triangles are to their limits.
+struct MacroState {
+  Vector positions;
+  base::SolverReport report;  ///< all iterations; the residual is that of EnergyMinimizer
+  mechanics::SheetStrains strains;
+  Eigen::VectorXd stretchGauge, bendingGauge;  ///< per triangle: 1 at the limit; 0 without one
+  /// Largest distance outside a limit over the size of its set; 0: none is outside.
+  double violation = 0;
+  double barrier = 0;    ///< the last coefficient [J/m²]; of the penalty its c
+  double remaining = 0;  ///< how much lower the energy could be without the barrier's room, to first order [J]
+  double work = 0;       ///< of the loads from rest [J]
+};
+
+/// Static equilibria and motion of a sheet of constant-strain triangles and four-triangle curvatures (Gingold et al.
+/// 2004) whose strains stay within their admissible sets.
+class MacroSimulation {
+ public:
+  /// Throws base::InputError (location empty) for a mesh that is not flat, a number that makes no sense, or a material
+  /// that does not allow for its rest shape.
+  MacroSimulation(MacroSheet sheet, const MacroOptions& options);
+
+  const MacroSheet& sheet() const { return sheet_; }
+  const std::vector<mechanics::LimitedTriangle>& triangles() const { return triangles_; }
+  /// Per node [kg].
+  const Vector& masses() const { return masses_; }
+  Vector rest() const { return sheet_.mesh.points.reshaped(); }
+
+  /// Static equilibrium, from `start`, which must be within the limits where there is a barrier; null: from rest.
+  MacroState equilibrium(const MacroLoads& loads, const Vector* start, base::ExecutionContext& context) const;
+
+  /// One step of implicit Euler from positions and velocities, within the limits at its end as at its start.
+  MacroState step(const Vector& positions, Vector& velocities, double timeStep, double barrier, const MacroLoads& loads,
+                  base::ExecutionContext& context) const;
+
+ private:
+  using Surroundings = solvers::EnergyMinimizer::Surroundings;
+  Surroundings surroundingsOf(const MacroLoads& loads) const;
+  std::vector<char> held(const MacroLoads& loads) const;
+  std::vector<solvers::EnergyMinimizer::Term> terms() const;
+  /// What shrinking the barrier to nothing could yield, to first order: Σ area c g ψ'(g) (1 - g).
+  void judge(MacroState& state) const;
+
+  MacroSheet sheet_;
+  MacroOptions options_;
+  std::vector<mechanics::LimitedTriangle> triangles_;
+  Vector areas_;   ///< per triangle [m²]
+  Vector masses_;  ///< per node [kg]
+  std::shared_ptr<const mechanics::ElasticAssembler> elastic_;
+  std::shared_ptr<const mechanics::ElasticAssembler> limits_;  ///< with the coefficient 1; null: none
+};
+
+}  // namespace pliant::interlock

@@ -1,0 +1,174 @@
+#include "core/solvers/energy_minimizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+
+namespace pliant::solvers {
+
+using base::TerminationType;
+using mechanics::Vector;
+
+namespace {
+
+/// Of the mean stiffness: at first, by how much it grows and falls, and the most.
+constexpr double firstShift = 1e-5;
+constexpr double shiftGrowth = 8;
+constexpr double shiftDecay = 0.2;
+constexpr double largestShift = 1e8;
+/// Armijo's condition, and where the line search gives up.
+constexpr double sufficientDecrease = 1e-4;
+constexpr double smallestStep = 1e-10;
+/// A shorter step than this seems to go the wrong way: the next Hessian gets a shift.
+constexpr double shortStep = 0.05;
+/// Decreases below this, relative to the energy, drown in rounding; then the residual decides.
+constexpr double roundingOfEnergy = 1e-13;
+
+/// Where block entries stand in the factors.
+Eigen::Index slotOf(const math::BlockCholesky& cholesky, int vertexRow, int vertexColumn, int i, int j) {
+  const math::BlockCholesky::Place place = cholesky.place(vertexRow, vertexColumn);
+  return place.offset + (place.transposed ? Eigen::Index{i} * place.stride + j : Eigen::Index{j} * place.stride + i);
+}
+
+}  // namespace
+
+EnergyMinimizer::EnergyMinimizer(std::vector<Term> terms, std::vector<char> heldNodes)
+    : terms_(std::move(terms)), held_(std::move(heldNodes)), entries_(terms_.size()) {
+  std::vector<int> vertex(held_.size(), -1);
+  for (std::size_t node = 0; node < held_.size(); ++node) {
+    if (held_[node]) continue;
+    vertex[node] = static_cast<int>(free_.size());
+    free_.push_back(static_cast<int>(node));
+  }
+  if (free_.empty()) return;
+  std::vector<std::array<int, 2>> pairs;
+  for (const Term& term : terms_)
+    for (int s = 0; s < term.energy->entryCount(); ++s) {
+      const int row = term.energy->rows()[s], column = term.energy->columns()[s];
+      if (row % 3 != 0 || column % 3 != 0 || row == column) continue;
+      if (vertex[row / 3] >= 0 && vertex[column / 3] >= 0) pairs.push_back({vertex[row / 3], vertex[column / 3]});
+    }
+  cholesky_.emplace(static_cast<int>(free_.size()), pairs);
+  for (const Term& term : terms_) {
+    std::vector<Eigen::Index>& slots = slots_.emplace_back(static_cast<std::size_t>(term.energy->entryCount()), -1);
+    for (int s = 0; s < term.energy->entryCount(); ++s) {
+      const int row = term.energy->rows()[s], column = term.energy->columns()[s];
+      if (vertex[row / 3] >= 0 && vertex[column / 3] >= 0)
+        slots[s] = slotOf(*cholesky_, vertex[row / 3], vertex[column / 3], row % 3, column % 3);
+    }
+  }
+  for (int v = 0; v < static_cast<int>(free_.size()); ++v)
+    diagonals_.push_back(
+        {slotOf(*cholesky_, v, v, 0, 0), slotOf(*cholesky_, v, v, 1, 1), slotOf(*cholesky_, v, v, 2, 2)});
+}
+
+double EnergyMinimizer::value(const Vector& x, const Surroundings& surroundings) const {
+  double sum = -surroundings.force.dot(x);
+  for (const Term& term : terms_) sum += term.weight * term.energy->value(x);
+  if (surroundings.inertia.size() > 0)
+    sum += 0.5 * (surroundings.inertia.array() * (x - surroundings.target).array().square()).sum();
+  return sum;
+}
+
+Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundings) const {
+  Vector sum = -surroundings.force;
+  for (const Term& term : terms_) sum += term.weight * term.energy->gradient(x);
+  if (surroundings.inertia.size() > 0) sum += surroundings.inertia.cwiseProduct(x - surroundings.target);
+  for (std::size_t node = 0; node < held_.size(); ++node)
+    if (held_[node]) sum.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
+  return sum;
+}
+
+void EnergyMinimizer::assemble(const Vector& x, const Surroundings& surroundings) {
+  for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t].energy->hessianEntries(x, entries_[t]);
+  factorize(surroundings, -1);
+}
+
+bool EnergyMinimizer::factorize(const Surroundings& surroundings, double shift) {
+  cholesky_->clear();
+  double* values = cholesky_->values();
+  for (std::size_t t = 0; t < terms_.size(); ++t)
+    for (Eigen::Index s = 0; s < entries_[t].size(); ++s)
+      if (const Eigen::Index slot = slots_[t][static_cast<std::size_t>(s)]; slot >= 0)
+        values[slot] += terms_[t].weight * entries_[t][s];
+  double sum = 0;
+  for (std::size_t v = 0; v < free_.size(); ++v)
+    for (int i = 0; i < 3; ++i) {
+      double& diagonal = values[diagonals_[v][static_cast<std::size_t>(i)]];
+      if (surroundings.inertia.size() > 0) diagonal += surroundings.inertia[3 * Eigen::Index{free_[v]} + i];
+      sum += std::abs(diagonal);
+      if (shift > 0) diagonal += shift * stiffness_;
+    }
+  if (shift < 0) {
+    stiffness_ = sum / (3 * static_cast<double>(free_.size()));
+    return true;
+  }
+  return cholesky_->factorize();
+}
+
+base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surroundings,
+                                             const EnergyMinimizerOptions& options, base::ExecutionContext& context) {
+  const base::Stopwatch watch;
+  base::SolverReport report;
+  const auto finish = [&](TerminationType termination, std::string message) {
+    report.termination = termination;
+    report.message = std::move(message);
+    report.seconds = watch.seconds();
+    return report;
+  };
+  if (free_.empty()) return finish(TerminationType::converged, "");
+  double energy = value(x, surroundings), shift = 0;
+  if (!std::isfinite(energy)) return finish(TerminationType::infeasible, "The start is outside what limits allow.");
+  Vector slope = gradient(x, surroundings), right(3 * static_cast<Eigen::Index>(free_.size())), step(x.size());
+  for (int iteration = 0;; ++iteration) {
+    double scale = surroundings.force.cwiseAbs().maxCoeff();
+    for (const Term& term : terms_)
+      scale = std::max(scale, term.weight * term.energy->gradient(x).cwiseAbs().maxCoeff());
+    const double residual = scale > 0 ? slope.cwiseAbs().maxCoeff() / scale : 0;
+    report.iterations.push_back({iteration, residual, 0});
+    if (residual <= options.tolerance) return finish(TerminationType::converged, "");
+    if (context.cancelRequested()) return finish(TerminationType::cancelled, "The equilibrium was cancelled.");
+    if (iteration >= options.maximumIterations)
+      return finish(TerminationType::iterationLimit, "No equilibrium in " + std::to_string(iteration) + " iterations.");
+    assemble(x, surroundings);
+    bool moved = false;
+    while (!moved) {
+      while (!factorize(surroundings, shift)) {
+        shift = std::max(shiftGrowth * shift, firstShift);
+        if (shift > largestShift) return finish(TerminationType::failed, "The stiffness is not finite.");
+      }
+      for (std::size_t v = 0; v < free_.size(); ++v)
+        right.segment<3>(3 * static_cast<Eigen::Index>(v)) = -slope.segment<3>(3 * Eigen::Index{free_[v]});
+      cholesky_->solve(right);
+      step.setZero();
+      for (std::size_t v = 0; v < free_.size(); ++v)
+        step.segment<3>(3 * Eigen::Index{free_[v]}) = right.segment<3>(3 * static_cast<Eigen::Index>(v));
+      const double descent = slope.dot(step);
+      double length = 1;
+      for (; length > smallestStep && !moved; length *= 0.5) {
+        const Vector trial = x + length * step;
+        const double trialEnergy = value(trial, surroundings);
+        if (!std::isfinite(trialEnergy)) continue;
+        const bool drowned = -length * descent < roundingOfEnergy * std::abs(energy);
+        if (drowned ? gradient(trial, surroundings).cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff()
+                    : trialEnergy <= energy + sufficientDecrease * length * descent) {
+          x = trial;
+          energy = trialEnergy;
+          moved = true;
+          report.iterations.back().stepLength = length;
+        }
+      }
+      if (!moved || 2 * length < shortStep) {
+        if (!moved && shift > 1)
+          return finish(TerminationType::failed, "Rounding leaves more force over than the tolerance allows.");
+        shift = std::max(shiftGrowth * shift, firstShift);
+      } else {
+        shift = shift > firstShift ? shiftDecay * shift : 0;
+      }
+    }
+    slope = gradient(x, surroundings);
+  }
+}
+
+}  // namespace pliant::solvers

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "core/base/execution_context.hpp"
+#include "core/base/solver_report.hpp"
+#include "core/math/block_cholesky.hpp"
+#include "core/mechanics/elastic_assembler.hpp"
+
+namespace pliant::solvers {
+
+struct EnergyMinimizerOptions {
+  double tolerance = 1e-9;  ///< on the force that is left over, relative to the largest of those that balance
+  int maximumIterations = 500;
+};
+
+/// Minimises Σ weight E(x) + ½ Σ inertia (x - target)² - force·x over the nodes that are not held, in 3 dimensions, by
+/// Newton's method with the exact Hessian: a multiple of the stiffness that a node has on average is added where it is
+/// not positive definite, or where a step does not lower the energy, and taken back as steps succeed. Energies may be
+/// infinite (barriers): such places are not stepped to. The analysis of the linear system is kept between solves.
+class EnergyMinimizer {
+ public:
+  /// All terms are of one model, or of models with the same coordinates, three a node and all free.
+  struct Term {
+    std::shared_ptr<const mechanics::ElasticAssembler> energy;
+    double weight = 1;
+  };
+  EnergyMinimizer(std::vector<Term> terms, std::vector<char> heldNodes);
+
+  void setWeight(int term, double weight) { terms_[static_cast<std::size_t>(term)].weight = weight; }
+
+  struct Surroundings {
+    mechanics::Vector force;            ///< on all coordinates [N]
+    mechanics::Vector inertia, target;  ///< per coordinate [N/m], [m]; both empty: none
+  };
+  /// From `x`, whose held nodes stay where they are, and whose energy must be finite. The report's residual is what the
+  /// tolerance bounds.
+  base::SolverReport minimize(mechanics::Vector& x, const Surroundings& surroundings,
+                              const EnergyMinimizerOptions& options, base::ExecutionContext& context);
+
+  double value(const mechanics::Vector& x, const Surroundings& surroundings) const;
+  mechanics::Vector gradient(const mechanics::Vector& x, const Surroundings& surroundings) const;
+
+ private:
+  /// Of the Hessian at x, with `shift` on the diagonal; false if it is not positive definite.
+  bool factorize(const Surroundings& surroundings, double shift);
+  void assemble(const mechanics::Vector& x, const Surroundings& surroundings);
+
+  std::vector<Term> terms_;
+  std::vector<char> held_;
+  std::vector<int> free_;  ///< nodes
+  std::optional<math::BlockCholesky> cholesky_;
+  std::vector<std::vector<Eigen::Index>> slots_;        ///< per term and entry of its assembler; -1: held
+  std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
+  std::vector<mechanics::Vector> entries_;              ///< per term, at the x last assembled
+  double stiffness_ = 0;                                ///< mean of the diagonal there [N/m]
+};
+
+}  // namespace pliant::solvers
