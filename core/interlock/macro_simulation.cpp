@@ -160,7 +160,9 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
   std::vector<base::IterationRecord> records;
   for (bool last = !isBarrier;; state.barrier *= barrierDecay) {
     if (limits_) minimizer.setWeight(1, state.barrier);
-    solvers::EnergyMinimizerOptions options{last ? options_.tolerance : looseTolerance, options_.maximumIterations};
+    solvers::EnergyMinimizerOptions options;
+    options.tolerance = last ? options_.tolerance : looseTolerance;
+    options.maximumIterations = options_.maximumIterations;
     state.report = minimizer.minimize(state.positions, surroundings, options, context);
     for (base::IterationRecord record : state.report.iterations) {
       record.iteration = static_cast<int>(records.size());
@@ -190,7 +192,7 @@ MacroState MacroSimulation::step(const Vector& positions, Vector& velocities, do
   state.barrier = barrier;
   if (limits_) minimizer.setWeight(1, barrier);
   state.report =
-      minimizer.minimize(state.positions, surroundings, {options_.tolerance, options_.maximumIterations}, context);
+      minimizer.minimize(state.positions, surroundings, {.tolerance = options_.tolerance, .maximumIterations = options_.maximumIterations}, context);
   velocities = (state.positions - positions) / timeStep;
   state.work = surroundings.force.dot(state.positions - positions);
   judge(state);

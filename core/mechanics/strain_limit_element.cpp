@@ -98,16 +98,23 @@ Vector3d StretchLimitElement::strain(const std::array<double, 9>& x) const {
 }
 
 double StretchLimitElement::evaluateOne(const std::array<double, 9>& x, std::array<double, 9>* gradient,
-                                        std::array<double, packedSize(9)>* hessian) const {
+                                        std::array<double, packedSize(9)>* hessian, bool convex) const {
   const EdgeMetric at(x);
   const StrainFunction potential = limitPotential(*set, function, strainOfMetric * (at.metric - restMetric));
   const Vector3d stress = area * strainOfMetric.transpose() * potential.gradient;
   if (gradient) Eigen::Map<Eigen::Matrix<double, 9, 1>>(gradient->data()) = at.derivative.transpose() * stress;
   if (hessian) {
     const Eigen::Matrix<double, 3, 9> strainDerivative = strainOfMetric * at.derivative;
-    Eigen::Matrix<double, 9, 9> full = area * strainDerivative.transpose() * potential.hessian * strainDerivative;
+    const Matrix3d second = convex ? positivePart<3>(potential.hessian) : potential.hessian;
+    Eigen::Matrix<double, 9, 9> full = area * strainDerivative.transpose() * second * strainDerivative;
     // ∇²a: 2 I of e₁·e₁ on the first edge, and so on; corner 0 moves both edges backwards.
-    const double s1 = 2 * stress[0], s2 = 2 * stress[1], s3 = stress[2];
+    Eigen::Matrix2d edgeStress;
+    edgeStress << 2 * stress[0], stress[2], stress[2], 2 * stress[1];
+    if (convex) {
+      const Eigen::Matrix2d inverse = restEdges.inverse();
+      edgeStress = inverse * positivePart<2>(restEdges * edgeStress * restEdges.transpose()) * inverse.transpose();
+    }
+    const double s1 = edgeStress(0, 0), s2 = edgeStress(1, 1), s3 = edgeStress(0, 1);
     const double blocks[3][3] = {{s1 + s2 + 2 * s3, -s1 - s3, -s2 - s3}, {-s1 - s3, s1, s3}, {-s2 - s3, s3, s2}};
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) full.block<3, 3>(3 * a, 3 * b).diagonal().array() += blocks[a][b];
@@ -124,7 +131,7 @@ Vector3d CurvatureLimitElement::curvature(const std::array<double, 18>& x) const
 }
 
 double CurvatureLimitElement::evaluateOne(const std::array<double, 18>& x, std::array<double, 18>* gradient,
-                                          std::array<double, packedSize(18)>* hessian) const {
+                                          std::array<double, packedSize(18)>* hessian, bool convex) const {
   std::array<std::array<double, 12>, 3> places;
   std::array<HingeAngle, 3> hinges;
   Vector3d curvature = Vector3d::Zero();
@@ -143,12 +150,13 @@ double CurvatureLimitElement::evaluateOne(const std::array<double, 18>& x, std::
     for (int k = 0; hasNeighbour[i] && k < 12; ++k) angleDerivative(i, placeInElement(i, k)) = hinges[i].gradient[k];
   if (gradient) Eigen::Map<Eigen::Matrix<double, 18, 1>>(gradient->data()) = angleDerivative.transpose() * moments;
   if (hessian) {
-    Matrix3d second = area * curvatureOfAngles.transpose() * potential.hessian * curvatureOfAngles;
+    Matrix3d second = area * curvatureOfAngles.transpose() *
+                      (convex ? positivePart<3>(potential.hessian) : potential.hessian) * curvatureOfAngles;
     // A hinge of stiffness ½ |m| whose rest angle is ±1 away has the Hessian |m| ∇θ∇θᵀ + m ∇²θ.
-    second.diagonal() -= moments.cwiseAbs();
+    if (!convex) second.diagonal() -= moments.cwiseAbs();
     Eigen::Matrix<double, 18, 18> full = angleDerivative.transpose() * second * angleDerivative;
     for (int i = 0; i < 3; ++i) {
-      if (!hasNeighbour[i] || moments[i] == 0) continue;
+      if (convex || !hasNeighbour[i] || moments[i] == 0) continue;
       std::array<double, packedSize(12)> hinge;
       HingeElement{0.5 * std::abs(moments[i]), 0}.evaluateAgainst<double>(
           hinges[i].angle - std::copysign(1.0, moments[i]), places[i], nullptr, &hinge, nullptr);

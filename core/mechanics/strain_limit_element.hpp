@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include "core/mechanics/admissible_strain_set.hpp"
 #include "core/mechanics/element_energy.hpp"
 #include "core/mechanics/hinge_element.hpp"
@@ -7,12 +9,20 @@
 
 namespace pliant::mechanics {
 
+/// A symmetric matrix without its negative eigenvalues.
+template <int n>
+Eigen::Matrix<double, n, n> positivePart(const Eigen::Matrix<double, n, n>& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> eigen(matrix);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 /// ψ of strain limits and its derivatives; infinite where a barrier has no value.
 StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitFunction& function,
                               const Eigen::Vector3d& strain);
 
 /// What both kinds of elements do to be evaluated for several configurations at once: one after the other.
-/// `Derived` has evaluateOne, of doubles.
+/// `Derived` has evaluateOne of doubles, whose Hessian may be asked for without what makes it indefinite: negative
+/// eigenvalues of ψ'', compressive stresses, and the curvature of angles.
 template <class Derived, int count>
 struct StrainLimitElement {
   static constexpr int coordinates = count;
@@ -26,18 +36,30 @@ struct StrainLimitElement {
   double area = 0;  ///< [m²]
 
   double evaluate(const Gradient<double>& x, Gradient<double>* gradient, Hessian<double>* hessian) const {
-    return own().evaluateOne(x, gradient, hessian);
+    return own().evaluateOne(x, gradient, hessian, false);
+  }
+  void convexHessian(const Gradient<double>& x, Hessian<double>& hessian) const {
+    own().evaluateOne(x, nullptr, &hessian, true);
   }
 
   math::Packet evaluate(const Gradient<math::Packet>& x, Gradient<math::Packet>* gradient,
                         Hessian<math::Packet>* hessian) const {
+    return evaluateLanes(x, gradient, hessian, false);
+  }
+  void convexHessian(const Gradient<math::Packet>& x, Hessian<math::Packet>& hessian) const {
+    evaluateLanes(x, nullptr, &hessian, true);
+  }
+
+ private:
+  math::Packet evaluateLanes(const Gradient<math::Packet>& x, Gradient<math::Packet>* gradient,
+                             Hessian<math::Packet>* hessian, bool convex) const {
     constexpr int width = math::Packet::width;
     alignas(64) double values[width], gradients[count][width], hessians[packedSize(count)][width];
     for (int lane = 0; lane < width; ++lane) {
       Gradient<double> at, slope;
       Hessian<double> second;
       for (int i = 0; i < count; ++i) at[i] = x[i][lane];
-      values[lane] = own().evaluateOne(at, gradient ? &slope : nullptr, hessian ? &second : nullptr);
+      values[lane] = own().evaluateOne(at, gradient ? &slope : nullptr, hessian ? &second : nullptr, convex);
       for (int i = 0; gradient && i < count; ++i) gradients[i][lane] = slope[i];
       for (int i = 0; hessian && i < packedSize(count); ++i) hessians[i][lane] = second[i];
     }
@@ -48,7 +70,6 @@ struct StrainLimitElement {
     return value;
   }
 
- private:
   const Derived& own() const { return static_cast<const Derived&>(*this); }
 };
 
@@ -58,10 +79,11 @@ struct StretchLimitElement : StrainLimitElement<StretchLimitElement, 9> {
 
   Eigen::Vector3d restMetric;
   Eigen::Matrix3d strainOfMetric;  ///< L [1/m²]
+  Eigen::Matrix2d restEdges;       ///< from corner 0, in columns [m]
 
   Eigen::Vector3d strain(const std::array<double, 9>& x) const;
   double evaluateOne(const std::array<double, 9>& x, std::array<double, 9>* gradient,
-                     std::array<double, packedSize(9)>* hessian) const;
+                     std::array<double, packedSize(9)>* hessian, bool convex) const;
 };
 
 /// area ψ(Λ) of the curvature Λ of a triangle in the rest metric (Gingold et al. 2004, as thesis 4.3.4),
@@ -79,7 +101,7 @@ struct CurvatureLimitElement : StrainLimitElement<CurvatureLimitElement, 18> {
 
   Eigen::Vector3d curvature(const std::array<double, 18>& x) const;
   double evaluateOne(const std::array<double, 18>& x, std::array<double, 18>* gradient,
-                     std::array<double, packedSize(18)>* hessian) const;
+                     std::array<double, packedSize(18)>* hessian, bool convex) const;
 };
 
 }  // namespace pliant::mechanics

@@ -34,6 +34,7 @@ StretchLimitElement stretchElement(const LimitedTriangle& triangle, std::size_t 
   StretchLimitElement element;
   element.set = triangle.stretch;
   element.area = 0.5 * edges.determinant();
+  element.restEdges = edges;
   element.restMetric = {edges.col(0).squaredNorm(), edges.col(1).squaredNorm(), edges.col(0).dot(edges.col(1))};
   for (int k = 0; k < 3; ++k) {
     Matrix2d metric = Matrix2d::Zero();

@@ -8,20 +8,24 @@
 namespace pliant::solvers {
 
 using base::TerminationType;
+using mechanics::HessianKind;
 using mechanics::Vector;
 
 namespace {
 
-/// Of the mean stiffness: at first, by how much it grows and falls, and the most.
-constexpr double firstShift = 1e-5;
+/// So many steps take the convex Hessian before the exact one is tried again.
+constexpr int convexInSuccession = 4;
+/// The convex Hessian is stiffer than the exact one: its steps are doubled up to this while that lowers the energy.
+constexpr double farthestStep = 64;
+/// Of the mean stiffness, where even the convex Hessian is not positive definite or leads nowhere: at first, by how
+/// much it grows and falls, and the most.
+constexpr double firstShift = 1e-6;
 constexpr double shiftGrowth = 8;
 constexpr double shiftDecay = 0.2;
 constexpr double largestShift = 1e8;
 /// Armijo's condition, and where the line search gives up.
 constexpr double sufficientDecrease = 1e-4;
 constexpr double smallestStep = 1e-10;
-/// A shorter step than this seems to go the wrong way: the next Hessian gets a shift.
-constexpr double shortStep = 0.05;
 /// Decreases below this, relative to the energy, drown in rounding; then the residual decides.
 constexpr double roundingOfEnergy = 1e-13;
 
@@ -80,9 +84,10 @@ Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundin
   return sum;
 }
 
-void EnergyMinimizer::assemble(const Vector& x, const Surroundings& surroundings) {
-  for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t].energy->hessianEntries(x, entries_[t]);
-  factorize(surroundings, -1);
+bool EnergyMinimizer::factorizeAt(const Vector& x, const Surroundings& surroundings, mechanics::HessianKind kind,
+                                  double shift) {
+  for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t].energy->hessianEntries(x, entries_[t], kind);
+  return factorize(surroundings, shift);
 }
 
 bool EnergyMinimizer::factorize(const Surroundings& surroundings, double shift) {
@@ -98,11 +103,11 @@ bool EnergyMinimizer::factorize(const Surroundings& surroundings, double shift) 
       double& diagonal = values[diagonals_[v][static_cast<std::size_t>(i)]];
       if (surroundings.inertia.size() > 0) diagonal += surroundings.inertia[3 * Eigen::Index{free_[v]} + i];
       sum += std::abs(diagonal);
-      if (shift > 0) diagonal += shift * stiffness_;
     }
-  if (shift < 0) {
-    stiffness_ = sum / (3 * static_cast<double>(free_.size()));
-    return true;
+  if (shift > 0) {
+    const double added = shift * sum / (3 * static_cast<double>(free_.size()));
+    for (const auto& diagonal : diagonals_)
+      for (const Eigen::Index place : diagonal) values[place] += added;
   }
   return cholesky_->factorize();
 }
@@ -119,6 +124,10 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
   };
   if (free_.empty()) return finish(TerminationType::converged, "");
   double energy = value(x, surroundings), shift = 0;
+  int convexSteps = 0;
+  bool lengthened = false;
+  const double size =
+      (x.reshaped(3, x.size() / 3).rowwise().maxCoeff() - x.reshaped(3, x.size() / 3).rowwise().minCoeff()).norm();
   if (!std::isfinite(energy)) return finish(TerminationType::infeasible, "The start is outside what limits allow.");
   Vector slope = gradient(x, surroundings), right(3 * static_cast<Eigen::Index>(free_.size())), step(x.size());
   for (int iteration = 0;; ++iteration) {
@@ -131,43 +140,60 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
     if (context.cancelRequested()) return finish(TerminationType::cancelled, "The equilibrium was cancelled.");
     if (iteration >= options.maximumIterations)
       return finish(TerminationType::iterationLimit, "No equilibrium in " + std::to_string(iteration) + " iterations.");
-    assemble(x, surroundings);
-    bool moved = false;
-    while (!moved) {
-      while (!factorize(surroundings, shift)) {
+    bool convex = convexSteps > 0;
+    if (!convex && !factorizeAt(x, surroundings, HessianKind::exact, 0)) {
+      convexSteps = convexInSuccession;
+      convex = true;
+    }
+    if (convex) {
+      --convexSteps;
+      for (bool regular = factorizeAt(x, surroundings, HessianKind::convex, shift); !regular;
+           regular = factorize(surroundings, shift)) {
         shift = std::max(shiftGrowth * shift, firstShift);
         if (shift > largestShift) return finish(TerminationType::failed, "The stiffness is not finite.");
       }
-      for (std::size_t v = 0; v < free_.size(); ++v)
-        right.segment<3>(3 * static_cast<Eigen::Index>(v)) = -slope.segment<3>(3 * Eigen::Index{free_[v]});
-      cholesky_->solve(right);
-      step.setZero();
-      for (std::size_t v = 0; v < free_.size(); ++v)
-        step.segment<3>(3 * Eigen::Index{free_[v]}) = right.segment<3>(3 * static_cast<Eigen::Index>(v));
-      const double descent = slope.dot(step);
-      double length = 1;
-      for (; length > smallestStep && !moved; length *= 0.5) {
-        const Vector trial = x + length * step;
-        const double trialEnergy = value(trial, surroundings);
-        if (!std::isfinite(trialEnergy)) continue;
-        const bool drowned = -length * descent < roundingOfEnergy * std::abs(energy);
-        if (drowned ? gradient(trial, surroundings).cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff()
-                    : trialEnergy <= energy + sufficientDecrease * length * descent) {
-          x = trial;
-          energy = trialEnergy;
-          moved = true;
-          report.iterations.back().stepLength = length;
-        }
+    }
+    for (std::size_t v = 0; v < free_.size(); ++v)
+      right.segment<3>(3 * static_cast<Eigen::Index>(v)) = -slope.segment<3>(3 * Eigen::Index{free_[v]});
+    cholesky_->solve(right);
+    step.setZero();
+    for (std::size_t v = 0; v < free_.size(); ++v)
+      step.segment<3>(3 * Eigen::Index{free_[v]}) = right.segment<3>(3 * static_cast<Eigen::Index>(v));
+    const double descent = slope.dot(step);
+    double length = 1, reached = value(x + step, surroundings);
+    if (-descent < roundingOfEnergy * std::abs(energy)) {
+      // The energy's decrease drowns in rounding, and the force's may not.
+      const Vector trialSlope = gradient(x + step, surroundings);
+      if (!(trialSlope.cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff())) {
+        if (step.cwiseAbs().maxCoeff() <= options.stepTolerance * size) return finish(TerminationType::converged, "");
+        return finish(TerminationType::failed, "Rounding leaves more force over than the tolerance allows.");
       }
-      if (!moved || 2 * length < shortStep) {
-        if (!moved && shift > 1)
-          return finish(TerminationType::failed, "Rounding leaves more force over than the tolerance allows.");
-        shift = std::max(shiftGrowth * shift, firstShift);
-      } else {
-        shift = shift > firstShift ? shiftDecay * shift : 0;
+    } else {
+      while (!(reached <= energy + sufficientDecrease * length * descent) && length > smallestStep) {
+        length *= 0.5;
+        reached = value(x + length * step, surroundings);
+      }
+      if (length <= smallestStep) {
+        // Of an exact Hessian that is barely regular, or of a bad place: more of the diagonal.
+        convexSteps = convexInSuccession;
+        if (convex) shift = std::max(shiftGrowth * shift, firstShift);
+        if (shift > largestShift) return finish(TerminationType::failed, "No direction lowers the energy.");
+        continue;
+      }
+      // Not twice in succession: along stiff directions a doubled step only mirrors what is left.
+      lengthened = convex && !lengthened && length == 1;
+      while (lengthened && length < farthestStep) {
+        const double farther = value(x + 2 * length * step, surroundings);
+        if (!(farther < reached)) break;
+        reached = farther;
+        length *= 2;
       }
     }
+    x += length * step;
+    energy = reached;
     slope = gradient(x, surroundings);
+    report.iterations.back().stepLength = length;
+    if (convex) shift = shift > firstShift ? shiftDecay * shift : 0;
   }
 }
 

@@ -11,13 +11,15 @@ namespace pliant::solvers {
 
 struct EnergyMinimizerOptions {
   double tolerance = 1e-9;  ///< on the force that is left over, relative to the largest of those that balance
+  /// Where rounding leaves more than that, a last step this short, relative to the size of the model, counts as well.
+  double stepTolerance = 1e-9;
   int maximumIterations = 500;
 };
 
 /// Minimises Σ weight E(x) + ½ Σ inertia (x - target)² - force·x over the nodes that are not held, in 3 dimensions, by
-/// Newton's method with the exact Hessian: a multiple of the stiffness that a node has on average is added where it is
-/// not positive definite, or where a step does not lower the energy, and taken back as steps succeed. Energies may be
-/// infinite (barriers): such places are not stepped to. The analysis of the linear system is kept between solves.
+/// Newton's method with line search. Where the exact Hessian is not positive definite it takes the convex one (see
+/// mechanics::HessianKind) for some steps, and where that is not enough adds to its diagonal. Energies may be infinite
+/// (barriers): such places are not stepped to. The analysis of the linear system is kept between solves.
 class EnergyMinimizer {
  public:
   /// All terms are of one model, or of models with the same coordinates, three a node and all free.
@@ -42,9 +44,11 @@ class EnergyMinimizer {
   mechanics::Vector gradient(const mechanics::Vector& x, const Surroundings& surroundings) const;
 
  private:
-  /// Of the Hessian at x, with `shift` on the diagonal; false if it is not positive definite.
+  /// The Hessian at x with `shift` times its mean diagonal added to it; false if it is not positive definite.
+  bool factorizeAt(const mechanics::Vector& x, const Surroundings& surroundings, mechanics::HessianKind kind,
+                   double shift);
+  /// The same of the entries last evaluated.
   bool factorize(const Surroundings& surroundings, double shift);
-  void assemble(const mechanics::Vector& x, const Surroundings& surroundings);
 
   std::vector<Term> terms_;
   std::vector<char> held_;
@@ -53,7 +57,6 @@ class EnergyMinimizer {
   std::vector<std::vector<Eigen::Index>> slots_;        ///< per term and entry of its assembler; -1: held
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node
   std::vector<mechanics::Vector> entries_;              ///< per term, at the x last assembled
-  double stiffness_ = 0;                                ///< mean of the diagonal there [N/m]
 };
 
 }  // namespace pliant::solvers
