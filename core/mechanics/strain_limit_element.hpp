@@ -86,13 +86,15 @@ struct StretchLimitElement : StrainLimitElement<StretchLimitElement, 9> {
                      std::array<double, packedSize(9)>* hessian, bool convex) const;
 };
 
-/// area ψ(Λ) of the curvature Λ of a triangle in the rest metric (Gingold et al. 2004, as thesis 4.3.4),
+/// area ψ(Λ) of the curvature Λ of a triangle in the rest metric, a linear function of the angles θ_i between it and
+/// its neighbours (HingeElement, whose θ is positive where the neighbour hangs back from the triangle's normal); Λ is
+/// positive where the sheet curves towards the normal. On lattices it is that of Gingold et al. 2004 (thesis 4.3.4),
 ///   Λ = -Σ_i θ_i / (2 A l_i) t_i ⊗ t_i
-/// over its edges of length l_i, with the angle θ_i to the neighbour there (HingeElement, whose θ is positive where the
-/// neighbour hangs back from the triangle's normal) and the edge's outward normal t_i in the plane, |t_i| = l_i. Λ is
-/// positive where the sheet curves towards the normal. Corners: those of the triangle, then the neighbours' corners
-/// opposite edge i, which lies opposite corner i; where there is no neighbour θ_i = 0, and corner i stands in its
-/// place.
+/// over edges of length l_i with the outward normal t_i in the plane, |t_i| = l_i. On other meshes that formula does
+/// not converge, so it is the curvature of the quadratic through the six corners, to first order in the angles, which
+/// is the same on lattices; Gingold's is left for triangles that lack a neighbour and for six corners nearly on a
+/// conic, where there is no such quadratic. Corners: those of the triangle, then the neighbours' corners opposite edge
+/// i, which lies opposite corner i; where there is no neighbour θ_i = 0, and corner i stands in its place.
 struct CurvatureLimitElement : StrainLimitElement<CurvatureLimitElement, 18> {
   static constexpr std::string_view name = "curvature_limit";
 

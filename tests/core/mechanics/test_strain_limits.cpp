@@ -74,6 +74,8 @@ class TestStrainLimits : public QObject {
   void homogeneousStretchHasItsGreenStrain();
   void curvatureOfCylindersIsOfSecondOrder();
   void curvatureOfParaboloidsIsOfSecondOrder();
+  void curvatureConvergesOnIrregularMeshes();
+  void curvatureOfALatticeIsThatOfGingold();
   void rigidMotionsChangeNoStrain();
   void barrierIsInfiniteOutside();
   void penaltyIsTheThesis();
@@ -142,6 +144,87 @@ void TestStrainLimits::curvatureOfParaboloidsIsOfSecondOrder() {
   qInfo("errors %.1e, %.1e, %.1e, %.1e /m, order %.2f", errors[0], errors[1], errors[2], errors[3], order);
   QVERIFY(order > 1.9);
   QVERIFY(errors[3] < 1e-2);
+}
+
+/// Cylinders on grids whose points are moved at random, for which the four-triangle formula is off by a third.
+void TestStrainLimits::curvatureConvergesOnIrregularMeshes() {
+  const double radius = 0.2, axis = 0.4;
+  const Vector2d across(-std::sin(axis), std::cos(axis)), along(std::cos(axis), std::sin(axis));
+  const Vector3d exact(0.5 / radius, -0.5 / radius * std::cos(2 * axis), -0.5 / radius * std::sin(2 * axis));
+  std::vector<double> errors;
+  for (const int cells : {8, 16, 32, 64}) {
+    geometry::SurfaceMesh mesh = mechanics::irregularGrid(0.2, 0.2, cells, cells);
+    mesh.points.row(0).array() -= 0.1;
+    Vector x(mesh.points.size());
+    for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) {
+      const Vector2d rest = mesh.points.col(i).head<2>();
+      const double angle = rest.dot(across) / radius;
+      const Vector2d plane = rest.dot(along) * along + radius * std::sin(angle) * across;
+      x.segment<3>(3 * i) << plane, radius * (1 - std::cos(angle));
+    }
+    const SheetStrains strains = mechanics::sheetStrains(sheetOf(mesh), x);
+    double squares = 0;
+    int count = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      Vector2d middle = Vector2d::Zero();
+      for (const int node : mesh.triangles[t]) middle += mesh.points.col(node).head<2>() / 3;
+      if (middle.norm() > 0.06) continue;
+      squares += (radius * (strains.curvature.col(static_cast<Eigen::Index>(t)) - exact)).squaredNorm();
+      ++count;
+    }
+    errors.push_back(std::sqrt(squares / count));
+  }
+  const double order = std::log2(errors[2] / errors[3]);
+  qInfo("relative errors %.1e, %.1e, %.1e, %.1e, order %.2f", errors[0], errors[1], errors[2], errors[3], order);
+  QVERIFY(order > 0.9);
+  QVERIFY(errors[3] < 0.02);
+}
+
+/// A triangle whose neighbours are bent by one angle each: the formula of the thesis.
+void TestStrainLimits::curvatureOfALatticeIsThatOfGingold() {
+  geometry::SurfaceMesh mesh = hexagon(2, 0.1);
+  const Eigen::Matrix2d shear = (Eigen::Matrix2d() << 1, 0.3, 0, 0.8).finished();
+  mesh.points.topRows<2>() = (shear * mesh.points.topRows<2>()).eval();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> height(-0.01, 0.01);
+  Vector x = mesh.points.reshaped();
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i) x[3 * i + 2] = height(random);
+  const SheetStrains strains = mechanics::sheetStrains(sheetOf(mesh), x);
+  std::vector<Vector3d> normals;
+  for (const auto& [a, b, c] : mesh.triangles)
+    normals.push_back(
+        (x.segment<3>(3 * b) - x.segment<3>(3 * a)).cross(x.segment<3>(3 * c) - x.segment<3>(3 * a)).normalized());
+  int checked = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Eigen::Matrix2d curvature = Eigen::Matrix2d::Zero();
+    int neighbours = 0;
+    for (const geometry::MeshEdge& edge : geometry::meshEdges(mesh.triangles)) {
+      const auto [s, other] = edge.triangles;
+      if (other < 0 || (s != static_cast<int>(t) && other != static_cast<int>(t))) continue;
+      ++neighbours;
+      const int beside = s == static_cast<int>(t) ? other : s;
+      Vector3d middle = Vector3d::Zero();
+      for (const int node : mesh.triangles[t]) middle += mesh.points.col(node) / 3;
+      const Vector3d from = mesh.points.col(edge.nodes[0]), to = mesh.points.col(edge.nodes[1]);
+      Vector2d outward((to - from).y(), -(to - from).x());
+      if (outward.dot((middle - from).head<2>()) > 0) outward = -outward;
+      Vector3d apex = Vector3d::Zero();
+      for (const int node : mesh.triangles[beside])
+        if (node != edge.nodes[0] && node != edge.nodes[1]) apex = x.segment<3>(3 * node);
+      const double up = (apex - x.segment<3>(3 * edge.nodes[0])).dot(normals[t]);
+      const double angle = std::copysign(std::acos(std::clamp(normals[t].dot(normals[beside]), -1.0, 1.0)), up);
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Vector2d u = (mesh.points.col(b) - mesh.points.col(a)).head<2>(),
+                     v = (mesh.points.col(c) - mesh.points.col(a)).head<2>();
+      const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+      curvature += angle / (2 * area * (to - from).norm()) * outward * outward.transpose();
+    }
+    if (neighbours < 3) continue;
+    ++checked;
+    const Vector3d expected(0.5 * curvature.trace(), 0.5 * (curvature(0, 0) - curvature(1, 1)), curvature(0, 1));
+    QVERIFY((strains.curvature.col(static_cast<Eigen::Index>(t)) - expected).norm() < 1e-9 * expected.norm());
+  }
+  QVERIFY(checked > 5);
 }
 
 void TestStrainLimits::rigidMotionsChangeNoStrain() {
