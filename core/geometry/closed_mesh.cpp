@@ -40,4 +40,17 @@ double enclosedVolume(const SurfaceMesh& mesh) {
   return volume;
 }
 
+Eigen::Vector3d enclosedCentroid(const SurfaceMesh& mesh) {
+  double volume = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d from = mesh.points.col(mesh.triangles.front()[0]);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d u = mesh.points.col(a) - from, v = mesh.points.col(b) - from, w = mesh.points.col(c) - from;
+    const double part = u.dot(v.cross(w)) / 6;
+    volume += part;
+    moment += 0.25 * part * (u + v + w);
+  }
+  return from + moment / volume;
+}
+
 }  // namespace pliant::geometry

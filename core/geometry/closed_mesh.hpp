@@ -12,4 +12,7 @@ void checkClosed(const SurfaceMesh& mesh);
 /// What a closed mesh encloses [m³]; negative if its normals point inwards.
 double enclosedVolume(const SurfaceMesh& mesh);
 
+/// The centroid of what a closed mesh encloses.
+Eigen::Vector3d enclosedCentroid(const SurfaceMesh& mesh);
+
 }  // namespace pliant::geometry

@@ -5,6 +5,7 @@
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/linear_studies.hpp"
+#include "core/scene/macro_studies.hpp"
 #include "core/scene/resumable_study.hpp"
 #include "core/scene/sharded_study.hpp"
 #include "core/scene/study_specs.hpp"
@@ -69,7 +70,8 @@ StudyRegistry::StudyRegistry()
                  {"curvature_limits", makeBendingStudy},
                  {"bending_size", makeBendingStudy},
                  {"bending_boundary", makeBendingStudy},
-                 {"gravity_bending", makeBendingStudy}} {}
+                 {"gravity_bending", makeBendingStudy},
+                 {"macro_equilibrium", makeMacroEquilibriumStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;

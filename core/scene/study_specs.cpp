@@ -3,6 +3,7 @@
 #include "core/scene/bending_specs.hpp"
 #include "core/scene/cloth_specs.hpp"
 #include "core/scene/interlock_specs.hpp"
+#include "core/scene/macro_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -176,6 +177,7 @@ const std::vector<ParameterSpec>& studySpecs() {
     for (ParameterSpec& cloth : clothStudySpecs()) all.push_back(std::move(cloth));
     for (ParameterSpec& interlock : interlockStudySpecs()) all.push_back(std::move(interlock));
     for (ParameterSpec& bending : bendingStudySpecs()) all.push_back(std::move(bending));
+    for (ParameterSpec& macro : macroStudySpecs()) all.push_back(std::move(macro));
     return all;
   }();
   return specs;

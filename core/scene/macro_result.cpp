@@ -1,0 +1,129 @@
+#include "core/scene/macro_result.hpp"
+
+#include "core/interlock/cell_surface.hpp"
+#include "core/scene/csv.hpp"
+#include "core/scene/json_text.hpp"
+#include "core/scene/result_folder.hpp"
+#include "core/scene/run_information.hpp"
+
+namespace pliant::scene {
+
+namespace {
+
+Json columnsOf(const Eigen::Matrix3Xd& vectors) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i) list.push_back({vectors(0, i), vectors(1, i), vectors(2, i)});
+  return list;
+}
+
+Json setSummary(const std::shared_ptr<const mechanics::AdmissibleStrainSet>& set, const Eigen::VectorXd& gauges) {
+  if (!set) return nullptr;
+  return {{"largest_gauge", gauges.maxCoeff()},
+          {"triangles_near_limit", (gauges.array() > 0.99).count()},
+          {"limits", set->boundary().points.cols()},
+          {"size", set->size()},
+          {"gauge_error", {{"largest", set->gaugeError().largest}, {"rms", set->gaugeError().rootMeanSquare}}}};
+}
+
+}  // namespace
+
+Json MacroResult::summary() const {
+  Json json = summaryHead(*this);
+  json["cell"] = cell->name;
+  json["nodes"] = sheet->mesh.points.cols();
+  json["triangles"] = sheet->mesh.triangles.size();
+  json["clamped_nodes"] = clamped.size();
+  json["iterations"] = state.report.iterations.empty() ? 0 : state.report.iterations.size() - 1;
+  json["residual"] = state.report.residual();
+  json["work"] = state.work;
+  json["remaining"] = state.remaining;
+  json["violation"] = state.violation;
+  const interlock::MacroMaterial& material = sheet->materials.front();
+  json["stretch"] = setSummary(material.stretch, state.stretchGauge);
+  json["bending"] = setSummary(material.bending, state.bendingGauge);
+  json["deflections"] = columnsOf(deflections);
+  json["largest_displacement"] =
+      (state.positions.reshaped(3, sheet->mesh.points.cols()) - sheet->mesh.points).colwise().norm().maxCoeff();
+  json["native"] = nullptr;
+  if (native)
+    json["native"] = {{"termination", base::toString(native->rest.termination)},
+                      {"elements", native->patch->elements.size()},
+                      {"deflections", columnsOf(native->deflections)},
+                      {"compared", native->compared},
+                      {"mean_distance", native->meanDistance},
+                      {"largest_distance", native->largestDistance},
+                      {"size", native->size},
+                      {"mean_distance_over_size", native->meanDistance / native->size},
+                      {"mean_gap", native->rest.meanGap},
+                      {"iterations", native->rest.iterations},
+                      {"seconds", native->seconds}};
+  json["units"] = {{"work", "J"},
+                   {"remaining", "J, that the barrier could still yield, to first order"},
+                   {"violation", "distance outside a limit over the size of its set"},
+                   {"deflections", "m, of what carries the loads"},
+                   {"largest_displacement", "m"},
+                   {"largest_gauge", "1 at the limit"},
+                   {"gauge_error", "of the smooth gauge between limits, against flat triangles"},
+                   {"mean_distance", "m, between elements and the sheet"},
+                   {"seconds", "s"}};
+  addRunInformation(json, *this);
+  return json;
+}
+
+std::vector<std::string> MacroResult::warnings() const {
+  std::vector<std::string> list;
+  if (clamped.empty()) list.emplace_back("Nothing is clamped: only limits and inertia say where the sheet is.");
+  if (native && !native->rest.converged())
+    list.push_back("The native patch did not come to rest: " + native->rest.message);
+  return list;
+}
+
+void MacroResult::write(const std::filesystem::path& directory) const {
+  ResultFolder folder(directory);
+  const auto positions = state.positions.reshaped(3, sheet->mesh.points.cols());
+  CsvWriter nodes;
+  for (const char* column : {"node", "rest_x [m]", "rest_y [m]", "x [m]", "y [m]", "z [m]"}) nodes.add(column);
+  nodes.endRow();
+  for (Eigen::Index node = 0; node < positions.cols(); ++node) {
+    nodes.add(static_cast<long>(node)).add(sheet->mesh.points(0, node)).add(sheet->mesh.points(1, node));
+    for (int i = 0; i < 3; ++i) nodes.add(positions(i, node));
+    nodes.endRow();
+  }
+  folder.writeFile("nodes.csv", nodes.text());
+  CsvWriter triangles;
+  for (const char* column :
+       {"triangle", "a", "b", "c", "strain_mean", "strain_deviator", "strain_shear", "stretch_gauge",
+        "curvature_mean [1/m]", "curvature_deviator [1/m]", "curvature_twist [1/m]", "bending_gauge"})
+    triangles.add(column);
+  triangles.endRow();
+  for (std::size_t t = 0; t < sheet->mesh.triangles.size(); ++t) {
+    const auto column = static_cast<Eigen::Index>(t);
+    triangles.add(static_cast<long>(t));
+    for (const int node : sheet->mesh.triangles[t]) triangles.add(node);
+    for (int i = 0; i < 3; ++i) triangles.add(state.strains.stretch(i, column));
+    triangles.add(state.stretchGauge[column]);
+    for (int i = 0; i < 3; ++i) triangles.add(state.strains.curvature(i, column));
+    triangles.add(state.bendingGauge[column]).endRow();
+  }
+  folder.writeFile("triangles.csv", triangles.text());
+  geometry::SurfaceMesh mesh = sheet->mesh;
+  mesh.points = positions;
+  geometry::writeMesh(mesh, folder.path("sheet.ply"));
+  if (native) {
+    CsvWriter elements;
+    for (const char* column : {"element", "rest_x [m]", "rest_y [m]", "x [m]", "y [m]", "z [m]"}) elements.add(column);
+    elements.endRow();
+    for (std::size_t i = 0; i < native->patch->elements.size(); ++i) {
+      const Eigen::Vector3d& rest = native->patch->elements[i].position;
+      elements.add(static_cast<long>(i)).add(rest.x()).add(rest.y());
+      for (int k = 0; k < 3; ++k) elements.add(native->rest.state.positions(k, static_cast<Eigen::Index>(i)));
+      elements.endRow();
+    }
+    folder.writeFile("elements.csv", elements.text());
+    geometry::writeMesh(cellSurface(*native->patch, native->rest.state, 1, 1, 0.2), folder.path("patch.ply"));
+  }
+  folder.writeFile("summary.json", formatJson(summary()));
+  folder.commit();
+}
+
+}  // namespace pliant::scene
