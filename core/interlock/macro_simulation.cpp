@@ -19,6 +19,8 @@ using mechanics::StrainLimitFunction;
 /// The first barrier: as an energy, this much of the work that the loads could do over the size of the sheet.
 constexpr double firstBarrier = 0.1;
 constexpr double barrierDecay = 0.1;
+/// Of which there are at most so many, where loads do next to no work.
+constexpr int mostBarriers = 20;
 /// Until the last barrier equilibria are only followed.
 constexpr double looseTolerance = 1e-3;
 
@@ -158,6 +160,7 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
                                   size / areas_.sum()
                             : options_.penalty;
   std::vector<base::IterationRecord> records;
+  int level = 0;
   for (bool last = !isBarrier;; state.barrier *= barrierDecay) {
     if (limits_) minimizer.setWeight(1, state.barrier);
     solvers::EnergyMinimizerOptions options;
@@ -171,7 +174,7 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
     judge(state);
     state.work = surroundings.force.dot(state.positions - from);
     if (last || !state.report.converged()) break;
-    if (state.remaining <= options_.remaining * std::abs(state.work)) {
+    if (state.remaining <= options_.remaining * std::abs(state.work) || ++level == mostBarriers) {
       last = true;
       state.barrier /= barrierDecay;  // once more with this one, to the tolerance
     }
@@ -192,7 +195,8 @@ MacroState MacroSimulation::step(const Vector& positions, Vector& velocities, do
   state.barrier = barrier;
   if (limits_) minimizer.setWeight(1, barrier);
   state.report =
-      minimizer.minimize(state.positions, surroundings, {.tolerance = options_.tolerance, .maximumIterations = options_.maximumIterations}, context);
+      minimizer.minimize(state.positions, surroundings,
+                         {.tolerance = options_.tolerance, .maximumIterations = options_.maximumIterations}, context);
   velocities = (state.positions - positions) / timeStep;
   state.work = surroundings.force.dot(state.positions - positions);
   judge(state);

@@ -34,6 +34,10 @@ std::vector<ParameterSpec> outlineKeys() {
           integer("rings", "", "Of triangles, from the middle to the rim; of a rectangle cells along its longer side.",
                   1, 400),
           8),
+      withDefault(
+          list("centre", "Of the outline, from the origin of the cell: it says which elements a native patch has.",
+               number("", "", "Coordinate.", dimensions::length), 2, 2),
+          {0, 0}),
       withDefault(number("angle", "", "Of the material's first axis in the sheet.", dimensions::angle), "0 deg")};
 }
 

@@ -56,6 +56,8 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     interlock::MacroSheet sheet;
     sheet.mesh = locate(place_, [&] { return outline(); });
     sheet.angleOf.assign(sheet.mesh.triangles.size(), options_["angle"]);
+    if (options_["native"] && (options_["shape"] == "mesh" || options_["angle"] != 0.0))
+      throw base::InputError(place_, "A native patch is a disk, a hexagon or a rectangle along the material's axes.");
     context.setRange(0, options_.contains("stretch_limits") ? 0.05 : 0.6);
     sheet.materials = {material(context)};
     result->sheet = std::make_shared<const interlock::MacroSheet>(sheet);
@@ -207,8 +209,7 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     const base::Stopwatch watch;
     interlock::PatchOutline patchOutline;
     const std::string shape = options_["shape"];
-    if (shape == "mesh" || options_["angle"] != 0.0)
-      throw base::InputError(place_, "A native patch is a disk, a hexagon or a rectangle along the material's axes.");
+    patchOutline.centre = planeOf(options_["centre"]);
     constexpr double rim = 1 + 1e-6;  // elements on it belong to the patch
     if (shape == "rectangle") {
       patchOutline.kind = interlock::PatchOutline::Kind::rectangle;

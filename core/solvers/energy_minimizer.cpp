@@ -75,9 +75,14 @@ double EnergyMinimizer::value(const Vector& x, const Surroundings& surroundings)
   return sum;
 }
 
-Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundings) const {
+Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundings, double* largest) const {
   Vector sum = -surroundings.force;
-  for (const Term& term : terms_) sum += term.weight * term.energy->gradient(x);
+  if (largest) *largest = sum.cwiseAbs().maxCoeff();
+  for (const Term& term : terms_) {
+    const Vector own = term.weight * term.energy->gradient(x);
+    if (largest) *largest = std::max(*largest, own.cwiseAbs().maxCoeff());
+    sum += own;
+  }
   if (surroundings.inertia.size() > 0) sum += surroundings.inertia.cwiseProduct(x - surroundings.target);
   for (std::size_t node = 0; node < held_.size(); ++node)
     if (held_[node]) sum.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
@@ -129,11 +134,9 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
   const double size =
       (x.reshaped(3, x.size() / 3).rowwise().maxCoeff() - x.reshaped(3, x.size() / 3).rowwise().minCoeff()).norm();
   if (!std::isfinite(energy)) return finish(TerminationType::infeasible, "The start is outside what limits allow.");
-  Vector slope = gradient(x, surroundings), right(3 * static_cast<Eigen::Index>(free_.size())), step(x.size());
+  double scale = 0;
+  Vector slope = gradient(x, surroundings, &scale), right(3 * static_cast<Eigen::Index>(free_.size())), step(x.size());
   for (int iteration = 0;; ++iteration) {
-    double scale = surroundings.force.cwiseAbs().maxCoeff();
-    for (const Term& term : terms_)
-      scale = std::max(scale, term.weight * term.energy->gradient(x).cwiseAbs().maxCoeff());
     const double residual = scale > 0 ? slope.cwiseAbs().maxCoeff() / scale : 0;
     report.iterations.push_back({iteration, residual, 0});
     if (residual <= options.tolerance) return finish(TerminationType::converged, "");
@@ -191,7 +194,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
     }
     x += length * step;
     energy = reached;
-    slope = gradient(x, surroundings);
+    slope = gradient(x, surroundings, &scale);
     report.iterations.back().stepLength = length;
     if (convex) shift = shift > firstShift ? shiftDecay * shift : 0;
   }

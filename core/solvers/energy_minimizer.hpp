@@ -41,7 +41,9 @@ class EnergyMinimizer {
                               const EnergyMinimizerOptions& options, base::ExecutionContext& context);
 
   double value(const mechanics::Vector& x, const Surroundings& surroundings) const;
-  mechanics::Vector gradient(const mechanics::Vector& x, const Surroundings& surroundings) const;
+  /// `largest`, if not null: the largest component of any term's, of forces without inertia.
+  mechanics::Vector gradient(const mechanics::Vector& x, const Surroundings& surroundings,
+                             double* largest = nullptr) const;
 
  private:
   /// The Hessian at x with `shift` times its mean diagonal added to it; false if it is not positive definite.
