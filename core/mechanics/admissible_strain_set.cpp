@@ -13,9 +13,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// How far each function reaches, as a chord of the unit sphere. It must not shrink with the spacing of the points, or
-/// the interpolant would not converge; a sixth of all points reach each place.
-constexpr double support = 0.8;
+/// How far each function reaches, as a chord of the unit sphere, among 258 points. It shrinks with the fourth root of
+/// their number, half as fast as their spacing, or the interpolant would not converge.
+constexpr double supportOf258 = 0.8;
 /// Of the cube's faces along each axis.
 constexpr int cellsPerSide = 12;
 /// Strains nearer to the middle than this fraction of the set's size have the gauge's derivatives of that distance.
@@ -49,11 +49,12 @@ AdmissibleStrainSet::AdmissibleStrainSet(geometry::SurfaceMesh boundary, const V
   directions_ = (mesh.points.colwise() - middle).colwise().normalized();
   Eigen::VectorXd logarithms = (mesh.points.colwise() - middle).colwise().norm().array().log();
   meanLogarithm_ = logarithms.mean();
+  support_ = std::min(2.0, supportOf258 * std::pow(258.0 / static_cast<double>(count), 0.25));
   collectCells();
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < count; ++i)
     for (const int j : cells_[cellOf(directions_.col(i))]) {
-      const double r = (directions_.col(i) - directions_.col(j)).norm() / support;
+      const double r = (directions_.col(i) - directions_.col(j)).norm() / support_;
       if (r < 1) entries.emplace_back(static_cast<int>(i), j, Wendland(r).value);
     }
   Eigen::SparseMatrix<double> kernel(count, count);
@@ -113,21 +114,22 @@ void AdmissibleStrainSet::collectCells() {
           for (const int l : {0, 1}) radius = std::max(radius, (at(i + k, j + l) - centre).norm());
         std::vector<int>& cell = cells_[(face * cellsPerSide + i) * cellsPerSide + j];
         for (Eigen::Index c = 0; c < directions_.cols(); ++c)
-          if ((directions_.col(c) - centre).norm() < support + radius) cell.push_back(static_cast<int>(c));
+          if ((directions_.col(c) - centre).norm() < support_ + radius) cell.push_back(static_cast<int>(c));
       }
 }
 
-StrainFunction AdmissibleStrainSet::logarithm(const Vector3d& direction) const {
+StrainFunction AdmissibleStrainSet::logarithm(const Vector3d& direction, bool withDerivatives) const {
   StrainFunction result;
   result.value = meanLogarithm_;
-  const double scale = 1 / (support * support);
+  const double scale = 1 / (support_ * support_);
   for (const int c : cells_[cellOf(direction)]) {
     const Vector3d offset = direction - directions_.col(c);
     const double squared = scale * offset.squaredNorm();
     if (squared >= 1) continue;
     const Wendland kernel(std::sqrt(squared));
-    const double first = weights_[c] * scale * kernel.first, second = weights_[c] * scale * scale * kernel.second;
     result.value += weights_[c] * kernel.value;
+    if (!withDerivatives) continue;
+    const double first = weights_[c] * scale * kernel.first, second = weights_[c] * scale * scale * kernel.second;
     result.gradient += first * offset;
     result.hessian += second * offset * offset.transpose();
     result.hessian.diagonal().array() += first;
@@ -135,13 +137,14 @@ StrainFunction AdmissibleStrainSet::logarithm(const Vector3d& direction) const {
   return result;
 }
 
-StrainFunction AdmissibleStrainSet::gauge(const Vector3d& strain) const {
+StrainFunction AdmissibleStrainSet::gauge(const Vector3d& strain, bool withDerivatives) const {
   const Vector3d offset = strain - middle_;
   const double length = offset.norm(), radius = std::max(length, smallestRadius * size());
   const Vector3d u = length > 0 ? Vector3d(offset / length) : Vector3d::UnitX();
   // h(u) = exp(-log ρ(u)), and r h(v/|v|) with its derivatives along the sphere alone.
-  const StrainFunction log = logarithm(u);
+  const StrainFunction log = logarithm(u, withDerivatives);
   const double h = std::exp(-log.value);
+  if (!withDerivatives) return {length * h};
   const Vector3d slope = -h * log.gradient;
   const Matrix3d second = h * (log.gradient * log.gradient.transpose() - log.hessian);
   const Matrix3d onSphere = Matrix3d::Identity() - u * u.transpose();

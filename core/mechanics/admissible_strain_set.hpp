@@ -31,7 +31,7 @@ class AdmissibleStrainSet {
   /// the boundary in that direction. The logarithm of that distance is interpolated between the boundary's points by
   /// radial functions that are smooth and of compact support on the sphere of directions (Wendland 1995, C⁴), so that
   /// the gauge is exact there and smooth everywhere but at the middle; see gaugeError.
-  StrainFunction gauge(const Eigen::Vector3d& strain) const;
+  StrainFunction gauge(const Eigen::Vector3d& strain, bool withDerivatives = true) const;
   /// How far from 1 the gauge is on the boundary between its points: in the middles of edges and triangles, whose own
   /// places are flat where the set's boundary need not be. The largest and the root mean square.
   struct GaugeError {
@@ -46,13 +46,14 @@ class AdmissibleStrainSet {
   /// Wendland functions around directions; which of them reach where is looked up by cells of a cube around the sphere.
   void collectCells();
   int cellOf(const Eigen::Vector3d& direction) const;
-  StrainFunction logarithm(const Eigen::Vector3d& direction) const;
+  StrainFunction logarithm(const Eigen::Vector3d& direction, bool withDerivatives) const;
 
   geometry::SurfaceDistance distance_;
   Eigen::Vector3d middle_;
   Eigen::Matrix3Xd directions_;
   Eigen::VectorXd weights_;
   double meanLogarithm_ = 0;
+  double support_ = 0;  ///< chord
   std::vector<std::vector<int>> cells_;
   GaugeError gaugeError_;
 };

@@ -38,11 +38,11 @@ int placeInElement(int hinge, int coordinate) { return 3 * hingeCorners(hinge)[c
 }  // namespace
 
 StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitFunction& function,
-                              const Vector3d& strain) {
+                              const Vector3d& strain, bool withDerivatives) {
   const double c = function.coefficient;
   StrainFunction result;
   if (function.kind == StrainLimitFunction::Kind::barrier) {
-    const StrainFunction g = set.gauge(strain);
+    const StrainFunction g = set.gauge(strain, withDerivatives);
     const double room = 1 - g.value * g.value;
     if (!(room > 0)) {
       result.value = std::numeric_limits<double>::infinity();
@@ -51,6 +51,7 @@ StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitF
     const double first = 2 * c * g.value / room;
     const Matrix3d outer = g.gradient * g.gradient.transpose();
     result.value = -c * std::log(room);
+    if (!withDerivatives) return result;
     result.gradient = first * g.gradient;
     result.hessian = first * g.hessian + (2 * c / room + first * first / c) * outer;
   } else {
@@ -100,7 +101,9 @@ Vector3d StretchLimitElement::strain(const std::array<double, 9>& x) const {
 double StretchLimitElement::evaluateOne(const std::array<double, 9>& x, std::array<double, 9>* gradient,
                                         std::array<double, packedSize(9)>* hessian, bool convex) const {
   const EdgeMetric at(x);
-  const StrainFunction potential = limitPotential(*set, function, strainOfMetric * (at.metric - restMetric));
+  const StrainFunction potential =
+      limitPotential(*set, function, strainOfMetric * (at.metric - restMetric), gradient || hessian);
+  if (!gradient && !hessian) return area * potential.value;
   const Vector3d stress = area * strainOfMetric.transpose() * potential.gradient;
   if (gradient) Eigen::Map<Eigen::Matrix<double, 9, 1>>(gradient->data()) = at.derivative.transpose() * stress;
   if (hessian) {
@@ -141,9 +144,9 @@ double CurvatureLimitElement::evaluateOne(const std::array<double, 18>& x, std::
     hinges[i] = hingeAngle(places[i]);
     curvature += hinges[i].angle * curvatureOfAngles.col(i);
   }
-  const StrainFunction potential = limitPotential(*set, function, curvature);
-  const Vector3d moments = area * curvatureOfAngles.transpose() * potential.gradient;
+  const StrainFunction potential = limitPotential(*set, function, curvature, gradient || hessian);
   if (!gradient && !hessian) return area * potential.value;
+  const Vector3d moments = area * curvatureOfAngles.transpose() * potential.gradient;
 
   Eigen::Matrix<double, 3, 18> angleDerivative = Eigen::Matrix<double, 3, 18>::Zero();
   for (int i = 0; i < 3; ++i)

@@ -18,7 +18,7 @@ Eigen::Matrix<double, n, n> positivePart(const Eigen::Matrix<double, n, n>& matr
 
 /// ψ of strain limits and its derivatives; infinite where a barrier has no value.
 StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitFunction& function,
-                              const Eigen::Vector3d& strain);
+                              const Eigen::Vector3d& strain, bool withDerivatives = true);
 
 /// What both kinds of elements do to be evaluated for several configurations at once: one after the other.
 /// `Derived` has evaluateOne of doubles, whose Hessian may be asked for without what makes it indefinite: negative
