@@ -56,7 +56,7 @@ void addParts(CLI::App* verb, PartsSettings& parts, bool& make) {
     std::string description = number.description + std::string(usual);
     if (key == "clearance") description += "; of a patch, between its elements at least (0)";
     CLI::Option* option = verb->add_option("--" + key, parts.numbers[key], description)->group(group);
-    if (key != "clearance" && key != "tolerance" && key != "density" && key != "cylinder-height") option->needs(flag);
+    if (!number.table && key != "clearance" && key != "tolerance") option->needs(flag);
   }
 }
 

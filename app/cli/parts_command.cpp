@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
@@ -32,13 +31,6 @@ scene::PartsRequest requestFrom(const PartsSettings& settings) {
   return request;
 }
 
-std::string sizeText(const Eigen::Vector3d& size) {
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis)
-    text += (axis > 0 ? " x " : "") + base::formatQuantity(size[axis], base::dimensions::length);
-  return text;
-}
-
 }  // namespace
 
 bool isTable(const std::string& file) { return std::filesystem::path(file).extension() == ".csv"; }
@@ -55,15 +47,9 @@ ExitStatus exportParts(const MotionOptions& options, const PartsSettings& settin
   }
   base::ExecutionContext context;
   const scene::PartsReport report = *scene::exportParts(source, request, options.out, context);  // nobody cancels
-  for (const auto& part : report.parts) {
-    char volume[32];
-    std::snprintf(volume, sizeof volume, "%.4g", part.volume * 1e6);
-    std::cout << part.name << ": " << sizeText(part.size) << ", " << volume << " cm^3, " << part.triangles
-              << " triangles\n";
-  }
-  for (const std::string& remark : report.remarks) std::cout << remark << '\n';
-  std::cout << options.out << ": " << report.parts.size() << (report.parts.size() == 1 ? " body, " : " bodies, ")
-            << sizeText(report.size) << "; checked: closed, normals outwards, no body cuts itself\n";
+  std::vector<std::string> lines = linesOf(report);
+  lines.back() = options.out + ": " + lines.back();
+  for (const std::string& line : lines) std::cout << line << '\n';
   return done;
 }
 

@@ -1,6 +1,7 @@
 #include "core/scene/parts_export.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <set>
 
@@ -134,6 +135,13 @@ Eigen::AlignedBox3d boxOf(const geometry::SurfaceMesh& mesh) {
   return {Eigen::Vector3d(mesh.points.rowwise().minCoeff()), Eigen::Vector3d(mesh.points.rowwise().maxCoeff())};
 }
 
+std::string sizeText(const Eigen::Vector3d& size) {
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+    text += (axis > 0 ? " x " : "") + base::formatQuantity(size[axis], base::dimensions::length);
+  return text;
+}
+
 }  // namespace
 
 std::vector<Part> makeParts(const PartsSource& source, const PartsRequest& request, base::ExecutionContext& context,
@@ -157,6 +165,7 @@ std::vector<Part> makeParts(const PartsSource& source, const PartsRequest& reque
 std::optional<PartsReport> exportParts(const PartsSource& source, const PartsRequest& request,
                                        const std::filesystem::path& file, base::ExecutionContext& context) {
   PartsReport report;
+  std::vector<std::string> names;
   std::vector<geometry::SurfaceMesh> meshes;
   std::vector<geometry::BodyCopy> copies;
   Eigen::AlignedBox3d box;
@@ -167,6 +176,7 @@ std::optional<PartsReport> exportParts(const PartsSource& source, const PartsReq
         {part.name, static_cast<long>(part.mesh.triangles.size()), geometry::enclosedVolume(part.mesh), own.sizes()});
     copies.push_back({static_cast<int>(copies.size()), Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()});
     meshes.push_back(std::move(part.mesh));
+    names.push_back(std::move(part.name));
   }
   if (context.cancelRequested()) return std::nullopt;
   report.size = box.sizes();
@@ -175,10 +185,24 @@ std::optional<PartsReport> exportParts(const PartsSource& source, const PartsReq
   if (ending == ".stl")
     writePrintStl(meshes, copies, file);
   else if (ending == ".3mf")
-    writePrint3mf(meshes, copies, file);
+    writePrint3mf(meshes, copies, file, names);
   else
     geometry::writeMesh(assembled(meshes, copies), file);
   return report;
+}
+
+std::vector<std::string> linesOf(const PartsReport& report) {
+  std::vector<std::string> lines;
+  for (const PartsReport::Entry& part : report.parts) {
+    char volume[32];
+    std::snprintf(volume, sizeof volume, "%.4g", part.volume * 1e6);
+    lines.push_back(part.name + ": " + sizeText(part.size) + ", " + volume + " cm^3, " +
+                    std::to_string(part.triangles) + " triangles");
+  }
+  lines.insert(lines.end(), report.remarks.begin(), report.remarks.end());
+  lines.push_back(std::to_string(report.parts.size()) + (report.parts.size() == 1 ? " body, " : " bodies, ") +
+                  sizeText(report.size) + "; checked: closed, normals outwards, no body cuts itself");
+  return lines;
 }
 
 }  // namespace pliant::scene

@@ -59,4 +59,7 @@ std::vector<Part> makeParts(const PartsSource& source, const PartsRequest& reque
 std::optional<PartsReport> exportParts(const PartsSource& source, const PartsRequest& request,
                                        const std::filesystem::path& file, base::ExecutionContext& context);
 
+/// A line for each part and each remark, and one for all, which says what was checked.
+std::vector<std::string> linesOf(const PartsReport& report);
+
 }  // namespace pliant::scene

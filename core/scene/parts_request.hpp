@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/units.hpp"
+#include "core/scene/scene.hpp"
 
 namespace pliant::scene {
 
@@ -29,8 +31,12 @@ struct PartsNumber {
   base::Dimension dimension;
   const char* unit;  ///< in which people say it
   double PartsRequest::*value;
+  bool links, rods, table;  ///< whether it concerns links, rods, and the table of parameters
 };
 const std::vector<PartsNumber>& partsNumbers();
+
+/// Whether a scene has elements of a type, such as "link".
+bool hasElements(const Scene& scene, std::string_view type);
 
 /// A number in its own unit: 3, of 3 mm.
 double inOwnUnit(const PartsRequest& request, const PartsNumber& number);
