@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,18 @@ struct PatchSettings {
 /// Whether the export of a scene is a patch.
 bool isPatch(const MotionOptions& options);
 ExitStatus exportPatch(const MotionOptions& options, const PatchSettings& settings);
+
+/// How the bodies of a scene are made.
+struct PartsSettings {
+  std::map<std::string, std::string>
+      numbers;  ///< by the keys of scene::partsNumbers(); texts that are empty do not count
+  bool flat = false;
+};
+ExitStatus exportParts(const MotionOptions& options, const PartsSettings& settings);
+/// Whether a file of this name is written by exportTable.
+bool isTable(const std::string& file);
+/// The design parameters, with the sizes of masses.
+ExitStatus exportTable(const MotionOptions& options, const PartsSettings& settings);
 
 /// How a whole motion becomes a video or numbered pictures.
 struct FilmSettings {

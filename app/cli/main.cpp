@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <new>
 
 #include "app/cli/commands.hpp"
 #include "core/base/error.hpp"
+#include "core/scene/parts_request.hpp"
 #include "core/scene/result_charts.hpp"
 
 namespace pliant::cli {
@@ -34,6 +36,28 @@ void addRun(CLI::App* verb, RunOptions& options, const char* studies) {
   verb->add_option("--set", options.settings, "/json/pointer=VALUE: change a value of the scene; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--threads", options.threads, "Threads; 0: all cores")->check(CLI::Range(0, 1024));
+}
+
+/// The numbers of a patch and of the table of parameters are among these.
+void addParts(CLI::App* verb, PartsSettings& parts, bool& make) {
+  const std::string group = "Bodies to be made";
+  CLI::Option* flag =
+      verb->add_flag("--make", make,
+                     "Closed bodies: shells with their thickness, solids, links as plates with holes, rods as wires "
+                     "with sockets for balls of the masses; STL and 3MF in millimetres");
+  flag->group(group);
+  verb->add_flag("--flat", parts.flat, "Links side by side, to be printed, instead of in layers as they are mounted")
+      ->group(group)
+      ->needs(flag);
+  for (const scene::PartsNumber& number : scene::partsNumbers()) {
+    const std::string key = number.key;
+    char usual[64];
+    std::snprintf(usual, sizeof usual, " (%g %s)", inOwnUnit({}, number), number.unit);
+    std::string description = number.description + std::string(usual);
+    if (key == "clearance") description += "; of a patch, between its elements at least (0)";
+    CLI::Option* option = verb->add_option("--" + key, parts.numbers[key], description)->group(group);
+    if (!number.table && key != "clearance" && key != "tolerance") option->needs(flag);
+  }
 }
 
 int runProgram(int argc, char** argv) {
@@ -108,11 +132,13 @@ int runProgram(int argc, char** argv) {
   FilmSettings film;
   verb = program.add_subcommand("export",
                                 "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF (of an interlocking material, a "
-                                "patch for a printer), or the "
-                                "whole motion as a video or pictures");
+                                "patch for a printer), closed bodies to be made with --make, the "
+                                "whole motion as a video or pictures, or the design parameters as a table");
   addMotion(verb, motion);
   verb->add_option(
-          "--out", motion.out, "Mesh file, video (.ogv) or numbered pictures (.png); its ending chooses the format")
+          "--out", motion.out,
+          "Mesh file, video (.ogv), numbered pictures (.png) or table of parameters (.csv); its ending chooses the "
+          "format")
       ->required();
   verb->add_option("--size", film.size, "Pixels of a video or of pictures, WIDTHxHEIGHT")->capture_default_str();
   verb->add_option("--fps", film.picturesPerSecond,
@@ -130,13 +156,20 @@ int runProgram(int argc, char** argv) {
       "--patch", patch.outline,
       "Piece of an interlocking material: 10x8 cells, a rectangle \"60 mm x 40 mm\", a circle \"50 mm\", or "
       "a polygon FILE.csv (3x3)");
-  verb->add_option("--tolerance", patch.tolerance, "Of its chords (0.02 mm)");
-  verb->add_option("--clearance", patch.clearance, "Between its elements at least (0)");
+  PartsSettings parts;
+  bool make = false;
+  addParts(verb, parts, make);
   verb->callback([&] {
+    patch.tolerance = parts.numbers["tolerance"];
+    patch.clearance = parts.numbers["clearance"];
     if (isFilm(motion.out))
       status = exportFilm(motion, film);
+    else if (isPatch(motion))
+      status = exportPatch(motion, patch);
+    else if (isTable(motion.out))
+      status = exportTable(motion, parts);
     else
-      status = isPatch(motion) ? exportPatch(motion, patch) : exportMesh(motion);
+      status = make ? exportParts(motion, parts) : exportMesh(motion);
   });
 
   bool tables = false;

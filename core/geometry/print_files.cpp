@@ -26,8 +26,10 @@ void append(std::string& text, int number) { text += std::to_string(number); }
 
 Vector3d placed(const BodyCopy& copy, const Vector3d& point) { return copy.rotation * point + copy.position; }
 
-std::string objectText(const SurfaceMesh& body, int id) {
-  std::string text = "  <object id=\"" + std::to_string(id) + "\" type=\"model\">\n   <mesh>\n    <vertices>\n";
+std::string objectText(const SurfaceMesh& body, int id, const std::string& name) {
+  std::string text = "  <object id=\"" + std::to_string(id) + "\" type=\"model\"";
+  if (!name.empty()) text += " name=\"" + name + '"';
+  text += ">\n   <mesh>\n    <vertices>\n";
   for (Eigen::Index i = 0; i < body.points.cols(); ++i) {
     // A nanometre is enough, and stays short.
     const Vector3d point = (body.points.col(i) * millimetres * 1e6).array().round() / 1e6;
@@ -117,11 +119,12 @@ void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<Bod
 }
 
 void writePrint3mf(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
-                   const std::filesystem::path& file) {
+                   const std::filesystem::path& file, const std::vector<std::string>& names) {
   std::string model =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n <resources>\n";
-  for (std::size_t i = 0; i < bodies.size(); ++i) model += objectText(bodies[i], static_cast<int>(i) + 1);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    model += objectText(bodies[i], static_cast<int>(i) + 1, i < names.size() ? names[i] : "");
   model += " </resources>\n <build>\n";
   for (const BodyCopy& copy : copies) model += itemText(copy);
   model += " </build>\n</model>\n";

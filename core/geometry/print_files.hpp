@@ -23,8 +23,9 @@ void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<Bod
                    const std::filesystem::path& file);
 
 /// 3MF in millimetres: each body once as an object, and each copy as an item of the build, so that files stay small and
-/// copies separate ("3D Manufacturing Format, Core Specification", 1.3). Throws base::InputError as above.
+/// copies separate ("3D Manufacturing Format, Core Specification", 1.3). Bodies may have names, which must not hold
+/// quotes, "<" or "&". Throws base::InputError as above.
 void writePrint3mf(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
-                   const std::filesystem::path& file);
+                   const std::filesystem::path& file, const std::vector<std::string>& names = {});
 
 }  // namespace pliant::geometry

@@ -47,6 +47,7 @@ class ElementGallery;
 class Gallery;
 class JobStatus;
 class LiveBar;
+class MakeDialog;
 
 /// Puts document, jobs, viewport, plot and panels together. Without `remember` nothing is read from or written to the
 /// user's settings.
@@ -87,6 +88,12 @@ class MainWindow final : public QMainWindow {
   /// See writeBoundary; a message says what came of it.
   void exportBoundaryTo(const QString& file);
 
+  /// Bodies to be made, with the sizes of the dialog; a message and the dialog say what came of it.
+  void exportPartsTo(const QString& file);
+  /// The table of parameters; a message says what came of it.
+  void exportParametersTo(const QString& file);
+  MakeDialog& makeDialog() { return *make_; }
+
   QSize sizeHint() const override { return {1280, 800}; }
 
  protected:
@@ -111,6 +118,8 @@ class MainWindow final : public QMainWindow {
   void showDrapes(bool shown);
   void addShownDrape();
   void makeLiveActions();
+  void makePartsActions();
+  void openMakeDialog();
   void makeLiveBar();
   void openLive();
   void makeInterlockDocks();
@@ -183,6 +192,7 @@ class MainWindow final : public QMainWindow {
   panels::TravelPanel* travel_ = nullptr;
   panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
+  MakeDialog* make_ = nullptr;
   JobStatus* status_ = nullptr;
   QLabel* readout_ = nullptr;
   QToolButton* warnings_ = nullptr;

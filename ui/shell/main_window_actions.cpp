@@ -91,6 +91,7 @@ void MainWindow::makeActions() {
   }
 
   makeClothActions();
+  makePartsActions();
   makeLiveActions();
   makeCellActions();
   add("model.reset", tr("&Reset All Parameters"), "reset", {}, tr("Set all parameters as they are in the file"),
@@ -135,7 +136,8 @@ void MainWindow::makeMenus() {
   fill(file, {"file.open"});
   QMenu* recent = file->addMenu(tr("Open &Recent"));
   connect(recent, &QMenu::aboutToShow, this, [this, recent] { fillRecentMenu(recent); });
-  fill(file, {"file.gallery", "-", "file.save", "file.saveAs", "file.export", "file.exportFrames", "-", "file.quit"});
+  fill(file, {"file.gallery", "-", "file.save", "file.saveAs", "file.export", "file.exportFrames", "file.make", "-",
+              "file.quit"});
   fill(menuBar()->addMenu(tr("&Edit")), {"edit.undo", "edit.redo", "-", "edit.find"});
   fill(menuBar()->addMenu(tr("&View")), {"view.play",
                                          "view.fit",
@@ -241,7 +243,7 @@ void MainWindow::refreshActions() {
   const bool busy = session_.isBusy();
   // What an edit that still waits for its model would change has to wait for it.
   const bool editing = document_.isEditing();
-  for (const char* id : {"file.export", "view.fit", "model.nextProbe"}) enable(id, open);
+  for (const char* id : {"file.export", "file.make", "view.fit", "model.nextProbe"}) enable(id, open);
   for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
   enable("file.exportFrames", session_.shown().has_value() || viewport_->showsCloth());
   enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());

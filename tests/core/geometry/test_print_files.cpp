@@ -77,7 +77,10 @@ class TestPrintFiles : public QObject {
     QFETCH(QString, name);
     QTemporaryDir folder;
     const std::string file = folder.filePath(name).toStdString();
-    (name.endsWith("stl") ? writePrintStl : writePrint3mf)(bodies_, copies_, file);
+    if (name.endsWith("stl"))
+      writePrintStl(bodies_, copies_, file);
+    else
+      writePrint3mf(bodies_, copies_, file);
     const std::vector<Vector3d> found = cornersIn(file), wanted = expected();
     QCOMPARE(found.size(), wanted.size());
     for (std::size_t i = 0; i < found.size(); ++i) QVERIFY((found[i] - wanted[i]).norm() < 1e-5);
@@ -87,7 +90,7 @@ class TestPrintFiles : public QObject {
   void archive() {
     QTemporaryDir folder;
     const QString file = folder.filePath("copies.3mf");
-    writePrint3mf(bodies_, copies_, file.toStdString());
+    writePrint3mf(bodies_, copies_, file.toStdString(), {"small", "large, round"});
     QProcess python;
     python.start("python3",
                  {"-c",
@@ -96,10 +99,23 @@ class TestPrintFiles : public QObject {
                   "model = dom.parseString(archive.read('3D/3dmodel.model'))\n"
                   "count = lambda tag: len(model.getElementsByTagName(tag))\n"
                   "print(archive.testzip(), len(archive.namelist()), count('object'), count('item'), count('vertex'), "
-                  "count('triangle'), model.documentElement.getAttribute('unit'))",
+                  "count('triangle'), model.documentElement.getAttribute('unit'), "
+                  "model.getElementsByTagName('object')[1].getAttribute('name'))",
                   file});
     QVERIFY(python.waitForFinished());
-    QCOMPARE(python.readAllStandardOutput().trimmed(), "None 3 2 3 8 8 millimeter");
+    QCOMPARE(python.readAllStandardOutput().trimmed(), "None 3 2 3 8 8 millimeter large, round");
+  }
+
+  void sameBytes() {
+    QTemporaryDir folder;
+    QByteArray bytes[2];
+    for (int i = 0; i < 2; ++i) {
+      QFile file(folder.filePath(QString::number(i) + ".3mf"));
+      writePrint3mf(bodies_, copies_, file.fileName().toStdString());
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      bytes[i] = file.readAll();
+    }
+    QVERIFY(!bytes[0].isEmpty() && bytes[0] == bytes[1]);
   }
 
   void assembledMesh() {
