@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/harmonic/design_objective.hpp"
+#include "core/harmonic/parameter_jacobian.hpp"
 #include "core/harmonic/periodic_motion.hpp"
 
 namespace pliant::harmonic {
@@ -19,5 +20,9 @@ struct DesignGradient {
 /// far off. `parameters` are indices in `Model::parameters`.
 DesignGradient designGradient(const HarmonicBalanceProblem& problem, const PeriodicMotion& motion,
                               const DesignObjective& objective, const std::vector<int>& parameters);
+/// The same with ∂h/∂p of these parameters at this motion.
+DesignGradient designGradient(const HarmonicBalanceProblem& problem, const PeriodicMotion& motion,
+                              const DesignObjective& objective, const std::vector<int>& parameters,
+                              const ParameterJacobian& jacobian);
 
 }  // namespace pliant::harmonic
