@@ -93,8 +93,7 @@ bool DesignBranch::correct(DesignPoint& point, const DesignPoint& from, double s
   if (correctByNewton(point, {from.motion.z, {}, 1, 1})) return true;
   point.motion.z = foretold;
   point.motion.factorization = from.motion.factorization;
-  restoreStiffness(point, swing);
-  return correctByNewton(point, {});
+  return correctWithOldFactors(point, swing) || correctByNewton(point, {});
 }
 
 bool DesignBranch::correctByNewton(DesignPoint& point, StressSource stresses) {
@@ -109,20 +108,30 @@ bool DesignBranch::correctByNewton(DesignPoint& point, StressSource stresses) {
 }
 
 /// A motion that is extrapolated is not true to what is stiff, by second order. The factors of the design before, which
-/// know what is stiff, put that right without minding the spurious stresses there.
-void DesignBranch::restoreStiffness(DesignPoint& point, double swing) {
-  constexpr int mostCorrections = 4;
+/// know what is stiff, put that right without minding the spurious stresses there. True if nothing else is needed.
+bool DesignBranch::correctWithOldFactors(DesignPoint& point, double swing) {
+  constexpr int mostCorrections = 40;
+  constexpr double slowest = 0.8;  // ratio of successive corrections
   const HarmonicBalanceProblem& problem = *point.problem;
+  const double scale = problem.forceScale(options_.omega);
   double previous = swing;
-  for (int i = 0; i < mostCorrections; ++i) {
+  base::SolverReport& report = point.motion.report;
+  report = {};
+  for (int i = 0; i < mostCorrections && !context_.cancelRequested(); ++i) {
     const Vector residual = problem.residual(point.motion.z, options_.omega);
     const Vector correction = problem.expanded(point.motion.factorization->solve(problem.restricted(residual)));
     ++problem.cost().solves;
     const double size = correction.norm();
-    if (!(size < previous)) return;
+    if (!(size < (i < 3 ? 1 : slowest) * previous)) return false;
+    report.iterations.push_back({i, residual.norm() / scale, 1, size / swing});
     point.motion.z -= correction;
     previous = size;
+    if (residual.norm() <= options_.motion.tolerance * scale || size <= options_.motion.stepTolerance * swing) {
+      report.termination = base::TerminationType::converged;
+      return true;
+    }
   }
+  return false;
 }
 
 void DesignBranch::complete(DesignPoint& point) const {

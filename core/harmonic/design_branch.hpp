@@ -43,7 +43,7 @@ class DesignBranch {
   std::optional<DesignPoint> tryStep(const DesignPoint& from, const Vector& variables);
   bool correct(DesignPoint& point, const DesignPoint& from, double swing);
   bool correctByNewton(DesignPoint& point, StressSource stresses);
-  void restoreStiffness(DesignPoint& point, double swing);
+  bool correctWithOldFactors(DesignPoint& point, double swing);
   void complete(DesignPoint& point) const;
   void addCost(const SolutionCost& cost);
 

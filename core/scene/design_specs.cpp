@@ -78,7 +78,7 @@ std::vector<base::ParameterSpec> designKeys() {
       list("objectives", "What is to be reached; several are summed up.", objectives(), 1, 1000),
       withDefault(integer("iterations", "", "Iterations of the optimiser.", 0, 100'000), 200),
       positiveNumber("objective_tolerance", "",
-                     "The design counts as best if an iteration improves the objective by less, relative to itself.",
+                     "The design counts as best if two iterations improve the objective by less each, relative to itself.",
                      1e-6),
       positiveNumber("gradient_tolerance", "",
                      "It also does where the gradient that the bounds leave has fallen to this fraction of the first "

@@ -82,6 +82,7 @@ class BoundedMinimization {
     record(0, 0, 0);
     const double firstNorm = projectedGradient();
     forget();
+    int small = 0;  // iterations in succession that hardly lowered f
     for (int iteration = 1;; ++iteration) {
       if (projectedGradient() <= options_.gradientTolerance * firstNorm) return finish(TerminationType::converged);
       if (iteration > options_.maximumIterations)
@@ -101,7 +102,8 @@ class BoundedMinimization {
       }
       const double decrease = (before - value_) / std::max(std::abs(before), std::abs(value_));
       record(iteration, *length, decrease);
-      if (decrease <= options_.valueTolerance) return finish(TerminationType::converged);
+      small = decrease <= options_.valueTolerance ? small + 1 : 0;
+      if (small == 2) return finish(TerminationType::converged);
     }
   }
 

@@ -22,7 +22,7 @@ struct BoundedQuasiNewtonOptions {
   int maximumIterations = 200;
   int memory = 10;                  ///< corrections that the Hessian is made of
   double gradientTolerance = 1e-6;  ///< on the projected gradient relative to the first one
-  double valueTolerance = 1e-9;     ///< an iteration that lowers f by less, relative to |f|, counts as converged
+  double valueTolerance = 1e-9;     ///< two iterations that lower f by less each, relative to |f|, end it
   double firstStep = 0.1;           ///< largest change of a variable that is tried first
   double maximumStep = std::numeric_limits<double>::infinity();  ///< largest change of a variable in an iteration
 };
