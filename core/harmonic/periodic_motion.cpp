@@ -5,9 +5,9 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/jacobian_solver.hpp"
+#include "core/harmonic/motion_corrector.hpp"
 #include "core/harmonic/response_branch.hpp"
 #include "core/solvers/continuation_solver.hpp"
-#include "core/solvers/newton_solver.hpp"
 #include "core/solvers/static_equilibrium.hpp"
 
 namespace pliant::harmonic {
@@ -17,29 +17,6 @@ namespace {
 using base::TerminationType;
 
 constexpr int mostFollowedPoints = 200;
-
-class FixedFrequency final : public solvers::NonlinearSystem {
- public:
-  /// `predictedFrom`: the steady state that the start was extrapolated from by linearisation, or empty.
-  FixedFrequency(const HarmonicBalanceProblem& problem, JacobianSolver& solver, double omega, Vector predictedFrom)
-      : problem_(problem), solver_(solver), omega_(omega), stresses_{std::move(predictedFrom), {}, 0, 1} {}
-
-  Vector residual(const Vector& z) override { return problem_.residual(z, omega_); }
-  bool linearize(const Vector& z, Vector& h) override {
-    // Each iterate is extrapolated from the one before by linearisation, so the stresses are, too.
-    stresses_.to = z;
-    solver_.linearize(z, omega_, h, nullptr, stresses_.from.size() > 0 ? &stresses_ : nullptr);
-    stresses_ = {z, {}, 1, 1};
-    return solver_.factorize();
-  }
-  Vector solve(const Vector& b) override { return solver_.solve(b); }
-
- private:
-  const HarmonicBalanceProblem& problem_;
-  JacobianSolver& solver_;
-  double omega_;
-  StressSource stresses_;
-};
 
 /// Motions at one frequency as a branch in the fraction of the drive.
 class DriveRamp final : public solvers::ContinuationProblem {
@@ -105,15 +82,8 @@ class MotionSearch {
  private:
   /// True if there is nothing left to try: converged or cancelled.
   bool newtonFrom(const Vector& start, const Vector& predictedFrom) {
-    FixedFrequency system(problem_, solver_, omega_, predictedFrom);
-    solvers::NewtonOptions newton;
-    newton.tolerance = options_.tolerance;
-    newton.residualScale = problem_.forceScale(omega_);
-    newton.stepTolerance = options_.stepTolerance;
-    newton.stepScale = std::max(problem_.oscillation(start).norm(), 1e-6 * start.norm());
-    newton.maximumIterations = options_.maximumIterations;
     motion_.z = start;
-    motion_.report = solvers::solveNewton(system, motion_.z, newton, context_);
+    motion_.report = correctMotion(problem_, solver_, omega_, options_, {predictedFrom, {}, 0, 1}, motion_.z, context_);
     return motion_.report.converged() || motion_.report.termination == TerminationType::cancelled;
   }
 

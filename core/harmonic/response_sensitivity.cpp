@@ -1,33 +1,9 @@
 #include "core/harmonic/response_sensitivity.hpp"
 
-#include <algorithm>
-
 #include "core/harmonic/jacobian_solver.hpp"
+#include "core/harmonic/refined_solve.hpp"
 
 namespace pliant::harmonic {
-
-namespace {
-
-/// J X = B by iterative refinement with factors of a matrix near J; false if it does not converge quickly.
-bool refine(const SparseMatrix& jacobian, const math::SparseFactorization& factors, const Matrix& b, Matrix& x) {
-  constexpr int maximumIterations = 10;
-  constexpr double tolerance = 1e-12;
-  x = factors.solve(b);
-  double previous = 1;
-  for (int iteration = 0; iteration < maximumIterations; ++iteration) {
-    const Matrix correction = factors.solve(b - jacobian * x);
-    x += correction;
-    double size = 0;  // of the correction relative to the answer, of the worst column
-    for (Eigen::Index p = 0; p < x.cols(); ++p)
-      if (x.col(p).norm() > 0) size = std::max(size, correction.col(p).norm() / x.col(p).norm());
-    if (size <= tolerance) return true;
-    if (!(size <= 0.3 * previous)) return previous <= 1e-10;  // rounding may stop it just above the tolerance
-    previous = size;
-  }
-  return false;
-}
-
-}  // namespace
 
 ResponseSensitivity::ResponseSensitivity(const HarmonicBalanceProblem& problem, const PeriodicMotion& motion)
     : z_(motion.z) {
@@ -43,7 +19,7 @@ ResponseSensitivity::ResponseSensitivity(const HarmonicBalanceProblem& problem, 
   solver.linearize(z_, motion.omega, h, nullptr);
   Matrix unknowns;
   if (motion.factorization &&
-      refine(solver.jacobian(), *motion.factorization, problem.restricted(rightSide), unknowns)) {
+      solveRefined(solver.jacobian(), *motion.factorization, false, problem.restricted(rightSide), unknowns)) {
     derivative_ = problem.expanded(unknowns);
     return;
   }

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
+#include "core/mechanics/joint_parameter.hpp"
 
 namespace pliant::mechanics {
 
@@ -80,7 +81,7 @@ class FamilyDerivative final : public ModelDerivative {
   std::vector<Neighbour> neighbours_;
 };
 
-class FamilyMember final : public DesignParameter {
+class FamilyMember final : public JointParameter {
  public:
   FamilyMember(int index, FamilyParameter parameter, std::shared_ptr<const ModelFamily> family)
       : index_(index), parameter_(std::move(parameter)), family_(std::move(family)) {}
@@ -92,19 +93,21 @@ class FamilyMember final : public DesignParameter {
   double minimum(const Model&) const override { return parameter_.minimum; }
   double maximum(const Model&) const override { return parameter_.maximum; }
 
-  Model withValue(const Model& model, double value) const override {
-    if (!std::isfinite(value)) throw base::InputError("", "parameter '" + parameter_.name + "' must be finite");
-    std::vector<double> values = model.familyValues;
-    values.at(index_) = value;
-    Model changed = (*family_)(values);
+  const void* group() const override { return family_.get(); }
+  Model withJointValues(const Model& model, const std::vector<const JointParameter*>& members,
+                        const std::vector<double>& values) const override {
+    std::vector<double> all = model.familyValues;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (!std::isfinite(values[i]))
+        throw base::InputError("", "parameter '" + members[i]->name() + "' must be finite");
+      all.at(static_cast<const FamilyMember*>(members[i])->index_) = values[i];
+    }
+    Model changed = (*family_)(all);
     if (changed.coordinateCount() != model.coordinateCount() ||
         changed.dofs.freeCoordinates != model.dofs.freeCoordinates)
       throw base::InputError("", "parameter '" + parameter_.name + "' must not change which coordinates there are");
     changed.parameters = model.parameters;
-    for (const auto& other : model.parameters)
-      if (const double kept = other->value(model); other.get() != this && other->value(changed) != kept)
-        changed = other->withValue(changed, kept);
-    return changed;
+    return withParameterValues(changed, others(model), otherValues(model));
   }
 
   std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
@@ -118,6 +121,21 @@ class FamilyMember final : public DesignParameter {
   }
 
  private:
+  /// The parameters that the family does not know.
+  std::vector<std::shared_ptr<const DesignParameter>> others(const Model& model) const {
+    std::vector<std::shared_ptr<const DesignParameter>> found;
+    for (const auto& parameter : model.parameters)
+      if (const auto* joint = dynamic_cast<const JointParameter*>(parameter.get()); !joint || joint->group() != group())
+        found.push_back(parameter);
+    return found;
+  }
+  Vector otherValues(const Model& model) const {
+    const auto found = others(model);
+    Vector values(static_cast<Eigen::Index>(found.size()));
+    for (std::size_t i = 0; i < found.size(); ++i) values[static_cast<Eigen::Index>(i)] = found[i]->value(model);
+    return values;
+  }
+
   std::vector<FamilyDerivative::Neighbour> neighbours(const Model& model, const Stencil& stencil) const {
     constexpr double relativeStep = 2e-3;
     const double middle = value(model);

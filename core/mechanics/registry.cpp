@@ -5,6 +5,7 @@
 #include "core/geometry/mesh_generators.hpp"
 #include "core/geometry/tet_mesh.hpp"
 #include "core/mechanics/admissible_strain_set.hpp"
+#include "core/mechanics/driven_examples.hpp"
 #include "core/mechanics/family_parameter.hpp"
 #include "core/mechanics/mechanism.hpp"
 #include "core/mechanics/point_mass_parameter.hpp"
@@ -13,6 +14,7 @@
 #include "core/mechanics/shell.hpp"
 #include "core/mechanics/solid.hpp"
 #include "core/mechanics/spring.hpp"
+#include "core/mechanics/stiffness_factor.hpp"
 #include "core/mechanics/strain_limits.hpp"
 
 namespace pliant::mechanics {
@@ -259,6 +261,15 @@ Model familyExample(std::mt19937& random) {
   return model;
 }
 
+Model withFactors(Model model, std::mt19937& random) {
+  StiffnessFactorOptions options{"factor", "/factors", {}, 0.1, 10};
+  for (int e = 0; e < model.energies[0]->elementCount(); ++e) options.values.push_back(uniform(random, 0.5, 2));
+  model.parameters = makeStiffnessFactors(model, 0, options);
+  return model;
+}
+Model membraneFactorExample(std::mt19937& random) { return withFactors(membraneExample(random, 3), random); }
+Model solidFactorExample(std::mt19937& random) { return withFactors(solidExample(random, 3), random); }
+
 template <class Example>
 EnergyKind kind(const std::string& name, int dimension, const Example& example) {
   return {name + " " + std::to_string(dimension) + "D",
@@ -300,7 +311,11 @@ const std::vector<EnergyKind>& energyKinds() {
 }
 
 const std::vector<ParameterKind>& parameterKinds() {
-  static const std::vector<ParameterKind> kinds = {{"point_mass", pointMassExample}, {"family", familyExample}};
+  static const std::vector<ParameterKind> kinds = {
+      {"point_mass", pointMassExample, drivenPointMassExample},
+      {"family", familyExample, drivenFamilyExample},
+      {"stiffness_factor of membranes", membraneFactorExample, drivenStiffnessFactorExample},
+      {"stiffness_factor of solids", solidFactorExample, drivenStiffnessFactorExample}};
   return kinds;
 }
 

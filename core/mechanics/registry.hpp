@@ -24,6 +24,8 @@ struct ParameterKind {
   std::string name;
   /// A model that has a parameter of this kind as its first.
   std::function<Model(std::mt19937&)> example;
+  /// Likewise, with periodic motions: see driven_examples.hpp.
+  std::function<Model(std::mt19937&)> drivenExample;
 };
 const std::vector<ParameterKind>& parameterKinds();
 

@@ -1,6 +1,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/bending_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
+#include "core/scene/design_studies.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
@@ -55,6 +56,7 @@ StudyRegistry::StudyRegistry()
     : factories_{{"periodic_motion", makePeriodicMotionStudy},
                  {"frequency_response", makeFrequencyResponseStudy},
                  {"backbone", makeBackboneStudy},
+                 {"design", makeDesignStudy},
                  {"linear_modes", makeLinearModesStudy},
                  {"linear_response", makeLinearResponseStudy},
                  {"time_integration", makeTimeIntegrationStudy},
@@ -114,7 +116,11 @@ std::string hashScene(const Scene& scene) {
   for (const Json& element : scene.normalized()["elements"])
     if (element.contains("pattern")) addFile(element["pattern"], "path");
   for (const Json& body : scene.normalized()["bodies"]) addFile(body, "file");
-  for (const Json& study : scene.normalized()["studies"]) addFile(study, "candidate");
+  for (const Json& study : scene.normalized()["studies"]) {
+    addFile(study, "candidate");
+    for (const Json& objective : study.value("objectives", Json::array()))
+      for (const Json& path : objective.value("paths", Json::array())) addFile(path, "file");
+  }
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text;
   for (int shift = 60; shift >= 0; shift -= 4) text += digits[(hash >> shift) & 15];

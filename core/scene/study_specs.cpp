@@ -2,6 +2,7 @@
 
 #include "core/scene/bending_specs.hpp"
 #include "core/scene/cloth_specs.hpp"
+#include "core/scene/design_specs.hpp"
 #include "core/scene/interlock_specs.hpp"
 #include "core/scene/macro_specs.hpp"
 #include "core/scene/spec_builder.hpp"
@@ -62,9 +63,9 @@ ParameterSpec harmonicStudy(std::string type, std::string description, std::vect
   return object(std::move(type), std::move(description), std::move(keys));
 }
 
-/// What studies of driven motions have as well, before their `own` last keys.
-std::vector<ParameterSpec> drivenKeys(const std::vector<ParameterSpec>& own) {
-  std::vector<ParameterSpec> keys{
+/// How the first motion of studies of driven motions is found.
+std::vector<ParameterSpec> startKeys() {
+  return {
       withDefault(integer("maximum_ramp_steps", "",
                           "Steps in which the drive may be raised where Newton's method fails from rest.", 1, 10'000),
                   64),
@@ -73,10 +74,16 @@ std::vector<ParameterSpec> drivenKeys(const std::vector<ParameterSpec>& own) {
                  "Factor on the linear response that the first motion is sought from. Where there are several "
                  "motions, others than 1, also negative ones, lead to others: to an isolated curve, for example.",
                  dimensions::none),
-          1),
+          1)};
+}
+
+/// What studies of driven motions have as well, before their `own` last keys.
+std::vector<ParameterSpec> drivenKeys(const std::vector<ParameterSpec>& own) {
+  std::vector<ParameterSpec> keys = startKeys();
+  keys.push_back(
       withDefault(choice("stability", "Whether to find the stability of each motion, and the bifurcations of a curve.",
                          {"on", "off"}),
-                  "on")};
+                  "on"));
   keys.insert(keys.end(), own.begin(), own.end());
   return keys;
 }
@@ -130,6 +137,10 @@ const std::vector<ParameterSpec>& studySpecs() {
              positive(number("maximum_amplitude", "a",
                              "The curve ends where a node is this far from its mean position.", dimensions::length))},
             {withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 500)}),
+        harmonicStudy("design",
+                      "Changes design parameters within their bounds so that the motion at one frequency comes nearer "
+                      "to what is wanted (thesis 2.4.3).",
+                      designKeys(), startKeys()),
         object("linear_modes",
                "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
                {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/harmonic/inverse_design.hpp"
+#include "core/scene/study.hpp"
+
+namespace pliant::scene {
+
+/// The way from a scene's design to a better one.
+class DesignResult final : public Result {
+ public:
+  std::string kind() const override { return "design"; }
+  Json summary() const override;
+  /// summary.json, history.csv (a row a design), parameters.csv, trajectories.csv (of the probes, before and after, and
+  /// of the target paths in phase with what came of them).
+  void write(const std::filesystem::path& directory) const override;
+  /// Of the last design's motion.
+  std::vector<std::string> warnings() const override;
+
+  /// The motion of a design, as the study "periodic_motion" gives it, without its stability and sensitivities.
+  std::shared_ptr<HarmonicResult> motionOf(const harmonic::DesignIterate& design) const;
+  const harmonic::DesignIterate& before() const { return design.history.front(); }
+  const harmonic::DesignIterate& after() const { return design.history.back(); }
+  /// Designs, their motions, and how they were found. The history is empty if the first design has no motion, and
+  /// shorter than the way while the study runs.
+  harmonic::InverseDesignResult design;
+
+  double omega = 0;
+  int harmonics = 0;
+  int samples = 0;
+  std::vector<int> parameters;            ///< that could change, by index in `Model::parameters`
+  std::vector<harmonic::PathGoal> paths;  ///< of the objectives of the type "path"
+};
+
+}  // namespace pliant::scene
