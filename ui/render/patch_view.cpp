@@ -16,6 +16,7 @@
 #include "ui/render/color_key.hpp"
 #include "ui/render/color_map.hpp"
 #include "ui/render/dot_overlay.hpp"
+#include "ui/render/element_tints.hpp"
 #include "ui/render/marks.hpp"
 #include "ui/render/sheet_primitive.hpp"
 #include "ui/render/stage.hpp"
@@ -289,29 +290,5 @@ void PatchView::setStale(bool stale) {
 }
 
 std::optional<int> PatchView::pickNode(double, double, double) const { return std::nullopt; }
-
-std::vector<int> elementTints(const interlock::UnitCell& patch, int tints) {
-  const std::size_t count = patch.elements.size();
-  std::vector<std::vector<int>> linked(count);
-  for (const interlock::Link& link : patch.links) {
-    linked[static_cast<std::size_t>(link.a)].push_back(link.b);
-    linked[static_cast<std::size_t>(link.b)].push_back(link.a);
-  }
-  // Next the one that has the fewest tints left (Brelaz 1979): on lattices of triangles there is but one way.
-  std::vector<int> chosen(count, -1);
-  std::vector<std::vector<int>> uses(count, std::vector<int>(static_cast<std::size_t>(tints), 0));
-  for (std::size_t step = 0; step < count; ++step) {
-    std::size_t next = 0;
-    std::ptrdiff_t most = -1;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::ptrdiff_t taken = tints - std::count(uses[i].begin(), uses[i].end(), 0);
-      if (chosen[i] < 0 && taken > most) next = i, most = taken;
-    }
-    chosen[next] = static_cast<int>(std::min_element(uses[next].begin(), uses[next].end()) - uses[next].begin());
-    for (const int other : linked[next])
-      ++uses[static_cast<std::size_t>(other)][static_cast<std::size_t>(chosen[next])];
-  }
-  return chosen;
-}
 
 }  // namespace pliant::render

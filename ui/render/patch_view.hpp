@@ -31,7 +31,4 @@ class PatchView final : public View {
   std::unique_ptr<Parts> parts_;
 };
 
-/// For each element one of a few tints, such that linked ones differ where that many are enough.
-std::vector<int> elementTints(const interlock::UnitCell& patch, int tints);
-
 }  // namespace pliant::render

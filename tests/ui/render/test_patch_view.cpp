@@ -4,6 +4,7 @@
 #include "core/interlock/patch.hpp"
 #include "tests/ui/render/pixels.hpp"
 #include "ui/render/boundary_picture.hpp"
+#include "ui/render/element_tints.hpp"
 
 namespace pliant::render {
 
