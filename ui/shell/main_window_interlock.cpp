@@ -17,7 +17,7 @@ namespace pliant::shell {
 
 namespace {
 
-constexpr double heightShare = 0.54;  ///< of the window, that a boundary to be turned needs
+constexpr double heightShare = 0.44;  ///< of the window, that a boundary to be turned needs
 constexpr int plotHeight = 312;       ///< of the other docks at the bottom
 
 }  // namespace
