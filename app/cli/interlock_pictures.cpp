@@ -6,9 +6,12 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/pending_file.hpp"
 #include "core/base/units.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/interlock/holding_contacts.hpp"
+#include "core/scene/bending_chart.hpp"
+#include "core/scene/bending_reading.hpp"
 #include "core/scene/boundary_surface.hpp"
 #include "core/scene/interlock_reading.hpp"
 #include "core/scene/json_text.hpp"
@@ -16,6 +19,7 @@
 #ifdef PLIANT_HAS_RENDERER
 #include "app/cli/picture_size.hpp"
 #include "ui/render/boundary_picture.hpp"
+#include "ui/render/chart_picture.hpp"
 #include "ui/render/polar_curves_picture.hpp"
 #endif
 
@@ -32,6 +36,7 @@ struct InterlockFolder {
   std::filesystem::path folder;
   Json summary;
   std::string type() const { return summary.value("type", ""); }
+  bool isBoundary() const { return type() == "stretch_boundary" || type() == "bending_boundary"; }
 };
 
 std::optional<InterlockFolder> interlockFolder(const std::filesystem::path& result, const std::string& study) {
@@ -68,15 +73,20 @@ void warnOfChange(const scene::Scene& scene, const InterlockFolder& found) {
 std::optional<ExitStatus> exportBoundary(const MotionOptions& options) {
   const auto scene = scene::Scene::load(options.scene);
   const auto found = findInterlock(scene, options);
-  if (!found || found->type() != "stretch_boundary") return std::nullopt;
+  if (!found || !found->isBoundary()) return std::nullopt;
   warnOfChange(scene, *found);
+  if (std::filesystem::path(options.out).extension() == ".csv") {
+    base::writeFile(options.out, scene::readTextFile(found->folder / "boundary.csv"));
+    std::cout << options.out << ": " << found->summary["states"] << " limits\n";
+    return done;
+  }
   const scene::BoundarySurface surface = scene::readBoundarySurface(found->folder);
   geometry::SurfaceMesh mesh;
   mesh.points = surface.points;
   mesh.triangles = surface.triangles;
   geometry::writeMesh(mesh, options.out);
-  std::cout << options.out << ": " << surface.knownCount() << " limits, " << mesh.triangles.size()
-            << " triangles, in Green strain\n";
+  std::cout << options.out << ": " << surface.knownCount() << " limits, " << mesh.triangles.size() << " triangles, in "
+            << (surface.space.unit == "%" ? "Green strain" : "curvature [1/m]") << "\n";
   return done;
 }
 
@@ -84,17 +94,20 @@ std::optional<ExitStatus> exportBoundary(const MotionOptions& options) {
 
 namespace {
 
-/// "E_xy=2 %" or "E_x=0.02".
-void readSlice(const std::string& text, render::BoundaryStyle& style) {
+/// "E_xy=2 %" or "E_x=0.02", of bending "k_xy=20 1/m".
+void readSlice(const std::string& text, const scene::BoundarySpace& space, render::BoundaryStyle& style) {
   const std::size_t equals = text.find('=');
-  const std::string axis = text.substr(0, equals);
-  const std::vector<std::string> names{"E_x", "E_y", "E_xy"};
-  const auto name = std::find(names.begin(), names.end(), axis);
+  const auto& names = space.axes;
+  const auto name = std::find(names.begin(), names.end(), text.substr(0, equals));
+  const bool bends = space.unit != "%";
   if (equals == std::string::npos || name == names.end())
-    throw InputError("--slice", "Expected E_x, E_y or E_xy, = and a strain, such as E_xy=0.02 or \"E_xy=2 %\".");
+    throw InputError("--slice", "Expected " + names[0] + ", " + names[1] + " or " + names[2] + ", = and " +
+                                    (bends ? "a curvature, such as \"k_xy=20 1/m\"."
+                                           : "a strain, such as E_xy=0.02 or \"E_xy=2 %\"."));
   style.sliceAxis = static_cast<int>(name - names.begin());
   try {
-    style.slicePosition = base::parseQuantity(text.substr(equals + 1), {});
+    style.slicePosition =
+        base::parseQuantity(text.substr(equals + 1), bends ? base::Dimension{0, -1, 0, 0} : base::Dimension{});
   } catch (const InputError& error) {
     throw InputError("--slice", error.problem());
   }
@@ -106,8 +119,11 @@ render::Image boundaryImage(const InterlockFolder& found, const BoundaryLook& lo
   render::BoundaryScenery scenery;
   const auto surface = std::make_shared<scene::BoundarySurface>(scene::readBoundarySurface(found.folder));
   scenery.surface = surface;
-  if (!look.compare.empty())
+  if (!look.compare.empty()) {
     scenery.compared = std::make_shared<scene::BoundarySurface>(scene::readBoundarySurface(look.compare));
+    if (scenery.compared->space.unit != surface->space.unit)
+      throw InputError("--compare", "Of the two boundaries one is of stretch, the other one of bending.");
+  }
   if (!look.quantity.empty() && !surface->quantity(look.quantity)) {
     std::string names;
     for (const scene::BoundaryQuantity& each : surface->quantities) names += (names.empty() ? "" : ", ") + each.key;
@@ -115,7 +131,7 @@ render::Image boundaryImage(const InterlockFolder& found, const BoundaryLook& lo
   }
   if (!look.quantity.empty()) scenery.style.quantity = look.quantity;
   scenery.style.opacity = look.opacity;
-  if (!look.slice.empty()) readSlice(look.slice, scenery.style);
+  if (!look.slice.empty()) readSlice(look.slice, surface->space, scenery.style);
   picture.caption += '\n' + found.study + ",  " + std::to_string(surface->knownCount()) + " limits";
   if (scenery.compared) picture.caption += "\nover it, in orange: " + scenery.compared->name;
   return render::drawBoundary(scenery, picture);
@@ -136,6 +152,44 @@ render::Image limitImage(const scene::Scene& scene, const InterlockFolder& found
   return render::drawConfiguration(configuration, picture);
 }
 
+template <class AnyResult>
+render::Image patchImage(const AnyResult& result, render::PictureOptions picture) {
+  const auto configuration = render::patchConfiguration(result);
+  if (!configuration) throw InputError(result.provenance.study, "This study ended before elements had places.");
+  picture.caption += '\n' + render::patchCaption(result);
+  return render::drawPatch(configuration, picture);
+}
+
+/// What of a result is drawn over directions or sizes; neither of most.
+struct InterlockPlots {
+  std::vector<scene::PolarCurves> polar;
+  std::vector<scene::ResultChart> charts;
+  bool isEmpty() const { return polar.empty() && charts.empty(); }
+};
+
+void addPlots(const scene::Scene& scene, const InterlockFolder& found, InterlockPlots& plots) {
+  const std::string type = found.type();
+  if (type == "free_travel")
+    plots.polar.push_back(scene::freeTravelCurves(*scene::readFreeTravel(scene, found.folder)));
+  else if (type == "curvature_limits")
+    plots.polar.push_back(scene::curvatureLimitCurves(*scene::readCurvatureLimits(scene, found.folder)));
+  else if (type == "bending_size")
+    plots.charts.push_back(scene::bendingSizeChart(*scene::readBendingSize(scene, found.folder)));
+}
+
+/// Polar plots on the left, charts on the right, all of one width.
+void drawPlots(const InterlockPlots& plots, const render::PictureOptions& picture, const std::string& out) {
+  const auto all = static_cast<int>(plots.polar.size() + plots.charts.size());
+  const int left = picture.width * static_cast<int>(plots.polar.size()) / all;
+  render::Image image;
+  if (left > 0) image = render::drawPolarCurves(plots.polar, left, picture.height, picture.theme);
+  if (!plots.charts.empty())
+    image =
+        render::beside(image, render::chartImage(plots.charts, picture.width - left, picture.height, picture.theme));
+  render::writePng(image, out);
+  std::cout << out << ": " << picture.width << " x " << picture.height << " pixels\n";
+}
+
 }  // namespace
 
 std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const BoundaryLook& look,
@@ -148,14 +202,20 @@ std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const Bo
   warnOfChange(scene, *found);
   picture.caption = scene.normalized()["title"];
   const std::string type = found->type();
-  if (type == "stretch_boundary")
+  InterlockPlots plots;
+  addPlots(scene, *found, plots);
+  if (!plots.isEmpty()) {
+    drawPlots(plots, picture, options.out);
+    return done;
+  }
+  if (found->isBoundary())
     render::writePng(boundaryImage(*found, look, picture), options.out);
   else if (type == "cell_test")
     render::writePng(limitImage(scene, *found, picture), options.out);
-  else if (type == "free_travel")
-    render::writePng(render::drawPolarCurves({scene::freeTravelCurves(*scene::readFreeTravel(scene, found->folder))},
-                                             picture.width, picture.height, picture.theme),
-                     options.out);
+  else if (type == "bending_test")
+    render::writePng(patchImage(*scene::readBendingTest(scene, found->folder), picture), options.out);
+  else if (type == "gravity_bending")
+    render::writePng(patchImage(*scene::readGravityBending(scene, found->folder), picture), options.out);
   else
     throw InputError(found->folder.string(), "There is no picture of a result of the type " + scene::quote(type) + ".");
   std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
@@ -165,18 +225,18 @@ std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const Bo
 std::optional<ExitStatus> plotInterlock(const PlotOptions& options, const std::string& size) {
   const render::PictureOptions picture = pictureOf(size);
   const auto scene = scene::Scene::load(options.scene);
-  std::vector<scene::PolarCurves> plots;
+  InterlockPlots plots;
   for (const std::string& name : options.studies.empty() ? scene::studyNames(scene) : options.studies) {
     const auto found = interlockFolder(options.result, name);
     if (!found && std::filesystem::exists(std::filesystem::path(options.result) / name / "summary.json"))
       return std::nullopt;  // charts of other results
-    if (!found || found->type() != "free_travel") continue;
-    warnOfChange(scene, *found);
-    plots.push_back(scene::freeTravelCurves(*scene::readFreeTravel(scene, found->folder)));
+    if (!found) continue;
+    const bool none = plots.isEmpty();
+    addPlots(scene, *found, plots);
+    if (none != plots.isEmpty()) warnOfChange(scene, *found);
   }
-  if (plots.empty()) return std::nullopt;
-  render::writePng(render::drawPolarCurves(plots, picture.width, picture.height, picture.theme), options.out);
-  std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";
+  if (plots.isEmpty()) return std::nullopt;
+  drawPlots(plots, picture, options.out);
   return done;
 }
 

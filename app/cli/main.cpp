@@ -100,13 +100,14 @@ int runProgram(int argc, char** argv) {
   verb->add_option(
       "--colour", look.quantity, "What colours a boundary: distance, remaining, gap, contacts, iterations, way");
   verb->add_option("--compare", look.compare, "Another boundary over it: its result's folder, or its boundary.ply");
-  verb->add_option("--slice", look.slice, "Plane that cuts a boundary, such as \"E_xy=2 %\"");
+  verb->add_option("--slice", look.slice, "Plane that cuts a boundary, such as \"E_xy=2 %\" or \"k_xy=20 1/m\"");
   verb->add_option("--opacity", look.opacity, "Of a boundary")->check(CLI::Range(0.05, 1.0))->capture_default_str();
   verb->callback([&] { status = render(motion, look, size); });
 
   PlotOptions plotOptions;
   verb = program.add_subcommand(
-      "plot", "Draw response curves, comparisons of methods, energies or free travel, without a display");
+      "plot",
+      "Draw response curves, comparisons of methods, energies, or limits over directions and sizes, without a display");
   addScene(verb, plotOptions.scene);
   verb->add_option("--result", plotOptions.result, "Folder that `run` wrote")->required();
   verb->add_option("--study", plotOptions.studies, "Study to plot; may be repeated; else all that have a result")

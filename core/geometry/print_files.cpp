@@ -87,8 +87,8 @@ SurfaceMesh assembled(const std::vector<SurfaceMesh>& bodies, const std::vector<
   return mesh;
 }
 
-void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
-                   const std::filesystem::path& file) {
+bool writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
+                   const std::filesystem::path& file, const base::ExecutionContext* context) {
   static_assert(std::endian::native == std::endian::little && std::numeric_limits<float>::is_iec559);
   std::uint64_t count = 0;
   for (const BodyCopy& copy : copies) count += bodies[copy.body].triangles.size();
@@ -102,6 +102,7 @@ void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<Bod
   };
   appendBytes(static_cast<std::uint32_t>(count));
   for (const BodyCopy& copy : copies) {
+    if (context && context->cancelRequested()) return false;
     const SurfaceMesh& body = bodies[copy.body];
     for (const auto& triangle : body.triangles) {
       Eigen::Matrix3d corners;
@@ -116,6 +117,7 @@ void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<Bod
     bytes.clear();
   }
   output.commit();
+  return true;
 }
 
 void writePrint3mf(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,

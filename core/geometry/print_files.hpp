@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/base/execution_context.hpp"
 #include "core/geometry/surface_mesh.hpp"
 
 namespace pliant::geometry {
@@ -18,9 +19,10 @@ struct BodyCopy {
 /// All copies as one mesh [m].
 SurfaceMesh assembled(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies);
 
-/// Binary STL in millimetres, as printers read it. Throws base::InputError with the file's name as location.
-void writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
-                   const std::filesystem::path& file);
+/// Binary STL in millimetres, as printers read it. False once cancelled, without a file. Throws base::InputError with
+/// the file's name as location.
+bool writePrintStl(const std::vector<SurfaceMesh>& bodies, const std::vector<BodyCopy>& copies,
+                   const std::filesystem::path& file, const base::ExecutionContext* context = nullptr);
 
 /// 3MF in millimetres: each body once as an object, and each copy as an item of the build, so that files stay small and
 /// copies separate ("3D Manufacturing Format, Core Specification", 1.3). Bodies may have names, which must not hold

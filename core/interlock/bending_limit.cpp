@@ -1,7 +1,6 @@
 #include "core/interlock/bending_limit.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <numbers>
 
@@ -83,14 +82,21 @@ BendingLimit bendingLimit(const PatchSolver& solver, double angle, bool down, co
 }
 
 std::vector<BendingLimits> bendingLimits(const PatchSolver& solver, const std::vector<double>& angles,
-                                         const BendingOptions& options, base::ExecutionContext& context) {
+                                         const BendingOptions& options, base::ExecutionContext& context,
+                                         const base::GrowingResults<BendingLimits>::Observer& observe) {
   const int count = 2 * static_cast<int>(angles.size());
   std::vector<BendingLimits> limits(angles.size());
-  std::atomic<int> done{0};
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    for (BendingLimit* limit : {&limits[i].up, &limits[i].down}) {
+      limit->angle = angles[i];
+      limit->equilibrium.termination = base::TerminationType::cancelled;
+    }
+  base::GrowingResults<BendingLimits> growing(limits, count, context, observe);
   math::parallelFor(count, [&](int i) {
-    BendingLimit& limit = i % 2 == 0 ? limits[i / 2].up : limits[i / 2].down;
-    limit = bendingLimit(solver, angles[i / 2], i % 2 == 1, options, &context);
-    context.reportProgress(static_cast<double>(++done) / count);
+    if (context.cancelRequested()) return;
+    const auto side = i % 2 == 0 ? &BendingLimits::up : &BendingLimits::down;
+    BendingLimit limit = bendingLimit(solver, angles[i / 2], i % 2 == 1, options, &context);
+    growing.add([&](std::vector<BendingLimits>& all) { all[i / 2].*side = std::move(limit); });
   });
   return limits;
 }

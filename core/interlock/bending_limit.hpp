@@ -53,11 +53,13 @@ CellEquilibrium farthestBend(const PatchSolver& solver, const CellState& start, 
 BendingLimit bendingLimit(const PatchSolver& solver, double angle, bool down, const BendingOptions& options = {},
                           const base::ExecutionContext* context = nullptr);
 
-/// One for each angle and sign, up first, computed in parallel; the same for any number of threads.
+/// One for each angle and sign, up first, computed in parallel; the same for any number of threads. Those not reached
+/// yet, or not before cancellation, have the termination `cancelled`. `observe` sees what there is so far.
 struct BendingLimits {
   BendingLimit up, down;
 };
 std::vector<BendingLimits> bendingLimits(const PatchSolver& solver, const std::vector<double>& angles,
-                                         const BendingOptions& options, base::ExecutionContext& context);
+                                         const BendingOptions& options, base::ExecutionContext& context,
+                                         const base::GrowingResults<BendingLimits>::Observer& observe = {});
 
 }  // namespace pliant::interlock

@@ -1,6 +1,5 @@
 #include "core/interlock/deformation_test.hpp"
 
-#include <atomic>
 #include <cmath>
 
 #include "core/math/parallel.hpp"
@@ -59,13 +58,21 @@ DirectionLimit directionLimit(const CellSolver& solver, double angle, bool compr
 }
 
 std::vector<FreeTravel> freeTravel(const CellSolver& solver, const std::vector<double>& angles,
-                                   const LimitOptions& options, base::ExecutionContext& context) {
+                                   const LimitOptions& options, base::ExecutionContext& context,
+                                   const base::GrowingResults<FreeTravel>::Observer& observe) {
   std::vector<FreeTravel> result(angles.size());
-  std::atomic<int> done{0};
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    for (DirectionLimit* limit : {&result[i].stretch, &result[i].compression}) {
+      limit->angle = angles[i];
+      limit->equilibrium.termination = base::TerminationType::cancelled;
+    }
+  base::GrowingResults<FreeTravel> growing(result, 2 * static_cast<int>(angles.size()), context, observe);
   math::parallelFor(static_cast<int>(angles.size()), [&](int i) {
-    result[i].stretch = directionLimit(solver, angles[i], false, options, &context);
-    result[i].compression = directionLimit(solver, angles[i], true, options, &context);
-    context.reportProgress(static_cast<double>(++done) / static_cast<double>(angles.size()));
+    for (const auto member : {&FreeTravel::stretch, &FreeTravel::compression}) {
+      if (context.cancelRequested()) return;
+      DirectionLimit limit = directionLimit(solver, angles[i], member == &FreeTravel::compression, options, &context);
+      growing.add([&](std::vector<FreeTravel>& all) { all[i].*member = std::move(limit); });
+    }
   });
   return result;
 }

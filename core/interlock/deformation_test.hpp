@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/growing_results.hpp"
 #include "core/interlock/cell_equilibrium.hpp"
 
 namespace pliant::interlock {
@@ -49,9 +50,10 @@ struct FreeTravel {
   double travel() const { return (stretch.strain - compression.strain) / (1 + compression.strain); }
 };
 
-/// One for each angle, computed in parallel; the same for any number of threads. Those not reached before cancellation
-/// have the termination `cancelled`.
+/// One for each angle, computed in parallel; the same for any number of threads. Those not reached yet, or not before
+/// cancellation, have the termination `cancelled`. `observe` sees what there is so far, see GrowingResults.
 std::vector<FreeTravel> freeTravel(const CellSolver& solver, const std::vector<double>& angles,
-                                   const LimitOptions& options, base::ExecutionContext& context);
+                                   const LimitOptions& options, base::ExecutionContext& context,
+                                   const base::GrowingResults<FreeTravel>::Observer& observe = {});
 
 }  // namespace pliant::interlock

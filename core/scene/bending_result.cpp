@@ -68,6 +68,10 @@ Eigen::Vector3d curvatureTensor(const Eigen::Vector3d& curvature) {
   return {curvature[0] + curvature[1], curvature[0] - curvature[1], curvature[2]};
 }
 
+Eigen::Vector3d BendingBoundaryResult::coordinates(const Eigen::Vector3d& strain) const {
+  return curvatureTensor(strain);
+}
+
 Json PatchResult::patchSummary() const {
   Json json = materialSummary();
   double extent = 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/interlock/bending_limit.hpp"
-#include "core/interlock/strain_space_boundary.hpp"
 #include "core/scene/interlock_result.hpp"
 
 namespace pliant::scene {
@@ -61,7 +60,7 @@ class BendingSizeResult final : public PatchResult {
 };
 
 /// All limits of bending: "bending_boundary".
-class BendingBoundaryResult final : public PatchResult {
+class BendingBoundaryResult final : public PatchResult, public LimitSurface {
  public:
   Json summary() const override;
   /// summary.json, boundary.csv (a row a limit, exact), boundary.ply (the closed surface; coordinates are the
@@ -69,8 +68,10 @@ class BendingBoundaryResult final : public PatchResult {
   void write(const std::filesystem::path& directory) const override;
   std::vector<std::string> warnings() const override;
 
-  interlock::StrainSpaceBoundary boundary;
-  int recalled = 0;  ///< limits that a run before had found
+  const BoundarySpace& space() const override { return curvatureSpace(); }
+  Eigen::Vector3d coordinates(const Eigen::Vector3d& strain) const override;
+  std::shared_ptr<const interlock::UnitCell> body() const override { return patch; }
+  std::string table() const override;
 };
 
 /// At rest under gravity: "gravity_bending".
@@ -83,6 +84,7 @@ class GravityBendingResult final : public PatchResult {
   interlock::CellEquilibrium rest;
   std::vector<int> clamped;
   double direction = 0;                                ///< from the clamped side to the free one [rad]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< [m/s²]
   double weight = 0;                                   ///< of all elements [N]
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< of contacts on the clamped elements [N]
 };

@@ -1,6 +1,7 @@
 #include "core/interlock/cell_surface.hpp"
 #include "core/scene/bending_result.hpp"
 #include "core/scene/csv.hpp"
+#include "core/scene/element_table.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/result_folder.hpp"
 
@@ -42,18 +43,7 @@ void PatchResult::writeConfiguration(ResultFolder& folder, const interlock::Cell
     contacts.endRow();
   }
   folder.writeFile("contacts.csv", contacts.text());
-  CsvWriter elements;
-  elements.add("element").add("x [m]").add("y [m]").add("z [m]");
-  for (const char* row : {"x", "y", "z"})
-    for (const char* column : {"x", "y", "z"}) elements.add(std::string("rotation_") + row + column);
-  elements.endRow();
-  for (std::size_t i = 0; i < rest.state.rotations.size(); ++i) {
-    elements.add(static_cast<long>(i));
-    addComponents(elements, rest.state.positions.col(static_cast<Eigen::Index>(i)));
-    for (int row = 0; row < 3; ++row) addComponents(elements, rest.state.rotations[i].row(row).transpose());
-    elements.endRow();
-  }
-  folder.writeFile("elements.csv", elements.text());
+  folder.writeFile("elements.csv", elementTable(rest.state));
   if (rest.state.rotations.empty()) return;
   interlock::CellState state = rest.state;
   state.strain.setZero();  // which is no stretch here
@@ -101,30 +91,34 @@ void BendingSizeResult::write(const std::filesystem::path& directory) const {
   folder.commit();
 }
 
-void BendingBoundaryResult::write(const std::filesystem::path& directory) const {
-  ResultFolder folder(directory);
+std::string BendingBoundaryResult::table() const {
   CsvWriter csv;
   for (const char* column : {"state", "direction_mean", "direction_deviator", "direction_twist", "distance [1/m]",
                              "k_xx [1/m]", "k_yy [1/m]", "k_xy [1/m]", "remaining [1/m]", "mean_gap [m]", "contacts",
                              "iterations", "rest", "termination", "raised", "sees_beyond"})
     csv.add(column);
   csv.endRow();
-  geometry::SurfaceMesh mesh;
-  mesh.points.resize(3, static_cast<Eigen::Index>(boundary.states.size()));
-  mesh.triangles = boundary.mesh.triangles;
   for (std::size_t i = 0; i < boundary.states.size(); ++i) {
     const interlock::BoundaryState& state = boundary.states[i];
-    const Eigen::Vector3d tensor = curvatureTensor(boundary.strainAt(static_cast<int>(i)));
-    mesh.points.col(static_cast<Eigen::Index>(i)) = tensor;
     csv.add(static_cast<long>(i));
     addComponents(csv, boundary.mesh.directions[i]);
     csv.add(state.distance);
-    addComponents(csv, tensor);
+    addComponents(csv, curvatureTensor(boundary.strainAt(static_cast<int>(i))));
     csv.add(state.remaining).add(state.meanGap).add(state.contacts).add(state.iterations);
     csv.add(state.kind == interlock::RestKind::unlimited ? "folded" : nameOf(state.kind));
     csv.add(base::toString(state.termination)).add(state.raised ? 1 : 0).add(state.seesBeyond ? 1 : 0).endRow();
   }
-  folder.writeFile("boundary.csv", csv.text());
+  return csv.text();
+}
+
+void BendingBoundaryResult::write(const std::filesystem::path& directory) const {
+  ResultFolder folder(directory);
+  geometry::SurfaceMesh mesh;
+  mesh.points.resize(3, static_cast<Eigen::Index>(boundary.states.size()));
+  mesh.triangles = boundary.mesh.triangles;
+  for (std::size_t i = 0; i < boundary.states.size(); ++i)
+    mesh.points.col(static_cast<Eigen::Index>(i)) = curvatureTensor(boundary.strainAt(static_cast<int>(i)));
+  folder.writeFile("boundary.csv", table());
   geometry::writeMesh(mesh, folder.path("boundary.ply"));
   folder.writeFile("summary.json", formatJson(summary()));
   folder.commit();

@@ -4,8 +4,16 @@
 
 namespace pliant::scene {
 
-/// "bending_test", "curvature_limits", "bending_size", "bending_boundary", "gravity_bending".
-std::unique_ptr<Study> makeBendingStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
-                                        const Json& options);
+/// Factories of studies of finite patches, see StudyRegistry.
+std::unique_ptr<Study> makeBendingTestStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                            const Json& options);
+std::unique_ptr<Study> makeCurvatureLimitsStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                                const Json& options);
+std::unique_ptr<Study> makeBendingSizeStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                            const Json& options);
+std::unique_ptr<Study> makeBendingBoundaryStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                                const Json& options);
+std::unique_ptr<Study> makeGravityBendingStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,
+                                               const Json& options);
 
 }  // namespace pliant::scene

@@ -21,8 +21,8 @@ using QuantityKind = BoundaryQuantity::Kind;
 
 /// All quantities, still without values.
 std::vector<BoundaryQuantity> emptyQuantities(Index count) {
-  std::vector<BoundaryQuantity> quantities{{"distance", "distance from\nthe middle", QuantityKind::strain, {}},
-                                           {"remaining", "smaller gaps\ncould add", QuantityKind::strain, {}},
+  std::vector<BoundaryQuantity> quantities{{"distance", "distance from\nthe middle", QuantityKind::coordinate, {}},
+                                           {"remaining", "smaller gaps\ncould add", QuantityKind::coordinate, {}},
                                            {"gap", "mean gap over\nwire radius", QuantityKind::number, {}},
                                            {"contacts", "pairs of pieces\nin contact", QuantityKind::count, {}},
                                            {"iterations", "iterations", QuantityKind::count, {}},
@@ -44,6 +44,12 @@ void addLimitTable(BoundarySurface& surface, const std::filesystem::path& folder
   if (!std::filesystem::exists(folder / "boundary.csv")) return;
   const CsvTable table(folder / "boundary.csv");
   if (static_cast<Index>(table.size()) != surface.points.cols()) return;
+  const bool bends = table.has("k_xx [1/m]");
+  surface.space = bends ? curvatureSpace() : strainSpace();
+  const std::array<std::string, 3> columns = bends
+                                                 ? std::array<std::string, 3>{"k_xx [1/m]", "k_yy [1/m]", "k_xy [1/m]"}
+                                                 : std::array<std::string, 3>{"green_xx", "green_yy", "green_xy"};
+  const std::string perMetre = bends ? " [1/m]" : "";
   // Readers of meshes may put points in another order: limits are known by their places.
   std::map<std::array<float, 3>, int> rows;
   Eigen::Matrix3Xd exact(3, surface.points.cols());
@@ -51,7 +57,7 @@ void addLimitTable(BoundarySurface& surface, const std::filesystem::path& folder
     return std::array{static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])};
   };
   for (std::size_t i = 0; i < table.size(); ++i) {
-    const Vector3d place(table.number(i, "green_xx"), table.number(i, "green_yy"), table.number(i, "green_xy"));
+    const Vector3d place(table.number(i, columns[0]), table.number(i, columns[1]), table.number(i, columns[2]));
     exact.col(static_cast<Index>(i)) = place;
     rows[key(place)] = static_cast<int>(i);
   }
@@ -74,16 +80,27 @@ void addLimitTable(BoundarySurface& surface, const std::filesystem::path& folder
   }
   surface.quantities = emptyQuantities(surface.points.cols());
   for (std::size_t i = 0; i < table.size(); ++i) {
-    surface.known[i] = table.text(i, "termination") == "converged" && table.text(i, "rest") != "unlimited";
+    surface.known[i] = table.text(i, "termination") == "converged" && table.text(i, "rest") != "unlimited" &&
+                       table.text(i, "rest") != "folded";
     if (!surface.known[i]) continue;
     setQuantities(surface.quantities, static_cast<Index>(i),
-                  {table.number(i, "distance"), table.number(i, "remaining"), table.number(i, "mean_gap [m]") / radius,
-                   table.number(i, "contacts"), table.number(i, "iterations"),
+                  {table.number(i, "distance" + perMetre), table.number(i, "remaining" + perMetre),
+                   table.number(i, "mean_gap [m]") / radius, table.number(i, "contacts"), table.number(i, "iterations"),
                    wayOf(table.number(i, "raised") != 0, table.number(i, "sees_beyond") != 0)});
   }
 }
 
 }  // namespace
+
+const BoundarySpace& strainSpace() {
+  static const BoundarySpace space{{"E_x", "E_y", "E_xy"}, "%", 100};
+  return space;
+}
+
+const BoundarySpace& curvatureSpace() {
+  static const BoundarySpace space{{"k_xx", "k_yy", "k_xy"}, "1/m", 1};
+  return space;
+}
 
 int BoundarySurface::knownCount() const { return static_cast<int>(std::count(known.begin(), known.end(), true)); }
 
@@ -93,12 +110,13 @@ const BoundaryQuantity* BoundarySurface::quantity(const std::string& key) const 
   return found == quantities.end() ? nullptr : &*found;
 }
 
-BoundarySurface boundarySurface(const StretchBoundaryResult& result) {
-  const interlock::StrainSpaceBoundary& boundary = result.boundary;
+BoundarySurface boundarySurface(const LimitSurface& limits, const std::string& name) {
+  const interlock::StrainSpaceBoundary& boundary = limits.boundary;
   const auto count = static_cast<Index>(boundary.states.size());
-  const double radius = result.cell->smallestRadius();
+  const double radius = limits.body()->smallestRadius();
   BoundarySurface surface;
-  surface.name = result.provenance.study;
+  surface.name = name;
+  surface.space = limits.space();
   surface.points.setZero(3, count);
   surface.known.assign(boundary.states.size(), false);
   surface.quantities = emptyQuantities(count);
@@ -121,7 +139,7 @@ BoundarySurface boundarySurface(const StretchBoundaryResult& result) {
       continue;
     }
     placed[direction] = true;
-    surface.points.col(i) = interlock::greenStrain(strains.col(i));
+    surface.points.col(i) = limits.coordinates(strains.col(i));
   }
   const auto isPlaced = [&](int corner) { return placed[static_cast<std::size_t>(corner)]; };
   for (const auto& triangle : boundary.mesh.triangles)
@@ -133,8 +151,9 @@ BoundarySurface readBoundarySurface(const std::filesystem::path& place) {
   const bool isFolder = std::filesystem::is_directory(place);
   const std::filesystem::path file = isFolder ? place / "boundary.ply" : place;
   if (!std::filesystem::exists(file))
-    throw base::InputError(place.string(), isFolder ? "This folder holds no boundary.ply of a stretch_boundary study."
-                                                    : "There is no such file.");
+    throw base::InputError(
+        place.string(), isFolder ? "This folder holds no boundary.ply of a stretch_boundary or bending_boundary study."
+                                 : "There is no such file.");
   BoundarySurface surface;
   try {
     const geometry::SurfaceMesh mesh = geometry::readMesh(file, 1);
@@ -149,7 +168,7 @@ BoundarySurface readBoundarySurface(const std::filesystem::path& place) {
   try {
     addLimitTable(surface, folder);
   } catch (const Json::exception&) {
-    throw base::InputError((folder / "summary.json").string(), "This summary is not one of a stretch_boundary study.");
+    throw base::InputError((folder / "summary.json").string(), "This summary is not one of a study of a boundary.");
   }
   return surface;
 }

@@ -11,7 +11,7 @@ namespace pliant::scene {
 /// A number that every limit of a boundary has.
 struct BoundaryQuantity {
   enum class Kind {
-    strain,  ///< shown in per cent
+    coordinate,  ///< shown in the unit of the space
     number,
     count,
     way  ///< 0: straight from the middle, 1: raised by a neighbour, 2: the set is not star-shaped there
@@ -22,11 +22,12 @@ struct BoundaryQuantity {
   Eigen::VectorXd values;  ///< one a point; NaN where no limit is known
 };
 
-/// A strain-space boundary as it is looked at: a closed surface of limits in Green strain, or as much of it as there
-/// is.
+/// A boundary as it is looked at: a closed surface of limits in Green strain, or in curvature, or as much of it as
+/// there is.
 struct BoundarySurface {
   std::string name;
-  Eigen::Matrix3Xd points;                    ///< E_x, E_y, E_xy of the limits
+  BoundarySpace space = strainSpace();
+  Eigen::Matrix3Xd points;                    ///< coordinates of the limits
   std::vector<std::array<int, 3>> triangles;  ///< counterclockwise from outside, all whose corners have a place
   /// Whether a limit is known there. Other points lie between the two that their direction is between, if those have a
   /// place.
@@ -38,11 +39,12 @@ struct BoundarySurface {
   const BoundaryQuantity* quantity(const std::string& key) const;
 };
 
-/// Distances are in strain coordinates, from the middle; gaps in smallest radii.
-BoundarySurface boundarySurface(const StretchBoundaryResult& result);
+/// Distances are in strain or curvature, from the middle; gaps in smallest radii.
+BoundarySurface boundarySurface(const LimitSurface& limits, const std::string& name);
 
-/// What a `stretch_boundary` study wrote: the folder of its result, or the file boundary.ply in it or from anywhere.
-/// Without boundary.csv beside it the surface has no quantities, and seven digits. Throws base::InputError.
+/// What a `stretch_boundary` or `bending_boundary` study wrote: the folder of its result, or the file boundary.ply in
+/// it or from anywhere. Without boundary.csv beside it the surface has no quantities, and seven digits, and is taken
+/// for one in Green strain. Throws base::InputError.
 BoundarySurface readBoundarySurface(const std::filesystem::path& place);
 
 /// What a strain means: stretches along two directions at right angles, the larger first.

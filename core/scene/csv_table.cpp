@@ -29,6 +29,10 @@ CsvTable::CsvTable(const std::filesystem::path& file)
   for (std::string name; std::getline(header, name, ',');) names_.push_back(name);
 }
 
+bool CsvTable::has(std::string_view column) const {
+  return std::find(names_.begin(), names_.end(), column) != names_.end();
+}
+
 std::string_view CsvTable::text(std::size_t row, std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);
   if (found == names_.end())

@@ -14,6 +14,7 @@ class CsvTable {
   explicit CsvTable(const std::filesystem::path& file);
 
   std::size_t size() const { return rows_.size(); }
+  bool has(std::string_view column) const;
   std::string_view text(std::size_t row, std::string_view column) const;
   double number(std::size_t row, std::string_view column) const;
   int integer(std::size_t row, std::string_view column) const;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "core/interlock/boundary_file.hpp"
 #include "core/interlock/limit_grid.hpp"
-#include "core/interlock/strain_space_boundary.hpp"
+#include "core/scene/limit_surface.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
@@ -53,7 +52,7 @@ class StretchGridResult final : public InterlockResult {
 };
 
 /// All limits of in-plane deformation: "stretch_boundary".
-class StretchBoundaryResult final : public InterlockResult {
+class StretchBoundaryResult final : public InterlockResult, public LimitSurface {
  public:
   Json summary() const override;
   /// summary.json, boundary.csv (a row a limit, exact), boundary.ply (the closed surface; coordinates are Green strain
@@ -61,14 +60,11 @@ class StretchBoundaryResult final : public InterlockResult {
   void write(const std::filesystem::path& directory) const override;
   std::vector<std::string> warnings() const override;
 
-  interlock::StrainSpaceBoundary boundary;
-  int recalled = 0;  ///< limits that a run before had found
-  /// What a run after a cancelled one goes on from, see ResumableStudy.
-  std::shared_ptr<interlock::KnownStates> memory;
+  const BoundarySpace& space() const override { return strainSpace(); }
+  Eigen::Vector3d coordinates(const Eigen::Vector3d& strain) const override { return interlock::greenStrain(strain); }
+  std::shared_ptr<const interlock::UnitCell> body() const override { return cell; }
+  std::string table() const override;
 };
-
-/// What boundary.csv says: a row a limit.
-std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary);
 
 /// "locked", "reached", "unlimited".
 std::string_view nameOf(interlock::RestKind kind);

@@ -1,6 +1,7 @@
 #include "core/geometry/surface_mesh.hpp"
 #include "core/interlock/cell_surface.hpp"
 #include "core/scene/csv.hpp"
+#include "core/scene/element_table.hpp"
 #include "core/scene/interlock_result.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/result_folder.hpp"
@@ -28,24 +29,9 @@ std::string contactTable(const interlock::CellEquilibrium& rest) {
   return csv.text();
 }
 
-std::string elementTable(const interlock::CellState& state) {
-  CsvWriter csv;
-  csv.add("element").add("x [m]").add("y [m]").add("z [m]");
-  for (const char* row : {"x", "y", "z"})
-    for (const char* column : {"x", "y", "z"}) csv.add(std::string("rotation_") + row + column);
-  csv.endRow();
-  for (std::size_t i = 0; i < state.rotations.size(); ++i) {
-    csv.add(static_cast<long>(i));
-    addAll(csv, state.positions.col(static_cast<Eigen::Index>(i)));
-    for (int row = 0; row < 3; ++row) addAll(csv, state.rotations[i].row(row).transpose());
-    csv.endRow();
-  }
-  return csv.text();
-}
-
 }  // namespace
 
-std::string boundaryTable(const interlock::StrainSpaceBoundary& boundary) {
+std::string StretchBoundaryResult::table() const {
   CsvWriter csv;
   for (const char* column :
        {"state", "direction_mean", "direction_deviator", "direction_shear", "distance", "strain_mean",
@@ -119,7 +105,7 @@ void StretchGridResult::write(const std::filesystem::path& directory) const {
 
 void StretchBoundaryResult::write(const std::filesystem::path& directory) const {
   ResultFolder folder(directory);
-  folder.writeFile("boundary.csv", boundaryTable(boundary));
+  folder.writeFile("boundary.csv", table());
   geometry::SurfaceMesh mesh;
   mesh.points.resize(3, static_cast<Eigen::Index>(boundary.states.size()));
   for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)

@@ -64,19 +64,25 @@ class FreeTravelStudy final : public LimitStudy {
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
-    auto result = std::make_shared<FreeTravelResult>();
     const interlock::CellSolver solver(*cell_, equilibriumOptions());
     std::vector<double> angles(options_["directions"].get<std::size_t>());
     for (std::size_t i = 0; i < angles.size(); ++i)
       angles[i] = std::numbers::pi * static_cast<double>(i) / static_cast<double>(angles.size());
-    result->directions = interlock::freeTravel(solver, angles, limitOptions(), context);
-    TerminationType termination = TerminationType::converged;
-    std::string message;
-    for (const interlock::FreeTravel& direction : result->directions)
-      for (const auto* limit : {&direction.stretch, &direction.compression})
-        if (const auto [each, sentence] = outcomeOf(*limit); termination == TerminationType::converged)
-          termination = each, message = sentence;
-    finish(*result, termination, message, watch);
+    const auto resultWith = [&](std::vector<interlock::FreeTravel> directions) {
+      auto result = std::make_shared<FreeTravelResult>();
+      result->directions = std::move(directions);
+      TerminationType termination = TerminationType::converged;
+      std::string message;
+      for (const interlock::FreeTravel& direction : result->directions)
+        for (const auto* limit : {&direction.stretch, &direction.compression})
+          if (const auto [each, sentence] = outcomeOf(*limit); termination == TerminationType::converged)
+            termination = each, message = sentence;
+      finish(*result, termination, message, watch);
+      return result;
+    };
+    base::GrowingResults<interlock::FreeTravel>::Observer observeLimits;
+    if (observe) observeLimits = [&](const auto& soFar) { observe(resultWith(soFar)); };
+    auto result = resultWith(interlock::freeTravel(solver, angles, limitOptions(), context, observeLimits));
     if (observe) observe(result);
     return result;
   }

@@ -127,27 +127,45 @@ std::vector<geometry::BodyMesh> bodiesOf(const Fabric& fabric, const interlock::
   return bodies;
 }
 
+Fabric fabricOf(const Scene& scene, const PatchRequest& request, base::ExecutionContext& context) {
+  return request.study.empty() ? fabricAtRest(scene, request) : fabricAtLimit(scene, request, context);
+}
+
+PatchReport reportOf(const Fabric& fabric, const interlock::FabricPatch& patch) {
+  PatchReport report;
+  report.elements = static_cast<int>(patch.elements.size());
+  report.leftOut = patch.leftOut;
+  report.clearance = clearance(fabric.cell, fabric.state);
+  return report;
+}
+
 }  // namespace
 
 bool isFabric(const Scene& scene) {
   return scene.normalized()["geometry"].empty() && !scene.normalized()["interlocking_cells"].empty();
 }
 
+PatchReport inspectPatch(const Scene& scene, const PatchRequest& request, base::ExecutionContext& context) {
+  const Fabric fabric = fabricOf(scene, request, context);
+  return reportOf(fabric, patchFrom(fabric, request.outline));
+}
+
 PatchReport exportPatch(const Scene& scene, const PatchRequest& request, const std::filesystem::path& file,
                         base::ExecutionContext& context) {
-  const Fabric fabric = request.study.empty() ? fabricAtRest(scene, request) : fabricAtLimit(scene, request, context);
+  const Fabric fabric = fabricOf(scene, request, context);
   const interlock::FabricPatch patch = patchFrom(fabric, request.outline);
-  PatchReport report;
-  report.elements = static_cast<int>(patch.elements.size());
-  report.leftOut = patch.leftOut;
-  report.clearance = clearance(fabric.cell, fabric.state);
+  PatchReport report = reportOf(fabric, patch);
   const auto show = [](double length) { return base::formatQuantity(length, dimensions::length); };
   if (report.clearance < request.minimumClearance)
     throw InputError(scene.name(), "Elements are " + show(report.clearance) + " apart, but at least " +
                                        show(request.minimumClearance) + " are asked for.");
 
+  context.reportProgress(0.05);
   const std::vector<geometry::BodyMesh> bodies =
       locate(scene.name(), [&] { return bodiesOf(fabric, patch, request.tolerance); });
+  context.reportProgress(0.5);
+  report.cancelled = context.cancelRequested();
+  if (report.cancelled) return report;
   std::vector<geometry::SurfaceMesh> meshes;
   std::vector<double> volumes;
   for (const geometry::BodyMesh& body : bodies) {
@@ -172,7 +190,7 @@ PatchReport exportPatch(const Scene& scene, const PatchRequest& request, const s
 
   const std::string ending = file.extension().string();
   if (ending == ".stl")
-    writePrintStl(meshes, copies, file);
+    report.cancelled = !writePrintStl(meshes, copies, file, &context);
   else if (ending == ".3mf")
     writePrint3mf(meshes, copies, file);
   else

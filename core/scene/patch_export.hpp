@@ -29,12 +29,17 @@ struct PatchReport {
   /// Where meshes go across an opening within one element that is narrower than half of its thinnest wire: how far they
   /// are from its walls; 0 if they do so nowhere [m].
   double filled = 0;
-  double volume = 0;     ///< of all elements [m³]
-  Eigen::Vector3d size;  ///< of a box around it [m]
+  double volume = 0;                               ///< of all elements [m³]
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< of a box around it [m]
+  bool cancelled = false;                          ///< there is no file
 };
 
 /// Whether a scene describes nothing but interlocking cells, so that its export is a patch.
 bool isFabric(const Scene& scene);
+
+/// What an export would take: `elements`, `leftOut` and `clearance`, before any mesh is made. Throws as exportPatch
+/// does, but for a clearance below the minimum.
+PatchReport inspectPatch(const Scene& scene, const PatchRequest& request, base::ExecutionContext& context);
 
 /// Writes one closed mesh for each element; of STL and 3MF files, lengths are in millimetres and the patch lies at the
 /// origin's side where all coordinates are positive. Throws base::InputError: an outline that cannot be read, no

@@ -36,17 +36,19 @@ PolarCurves freeTravelCurves(const FreeTravelResult& result) {
 PolarCurves curvatureLimitCurves(const CurvatureLimitsResult& result) {
   PolarCurves all{result.provenance.study, "1/m", 1, 2, {}};
   const double none = std::numeric_limits<double>::quiet_NaN();
+  all.note = "bent down: −k is shown";
   for (const auto& [side, member] :
        {std::pair{"up", &interlock::BendingLimits::up}, std::pair{"down", &interlock::BendingLimits::down}}) {
+    const double sign = member == &interlock::BendingLimits::up ? 1 : -1;
     PolarCurve along{std::string("bent ") + side, {}, {}, {}, true, false};
     PolarCurve across{std::string("across, bent ") + side, {}, {}, {}, true, true};
     for (const interlock::BendingLimits& direction : result.directions) {
       const interlock::BendingLimit& limit = direction.*member;
       const bool locked = limit.kind == interlock::BendingKind::locked;
       for (PolarCurve* curve : {&along, &across}) curve->angles.push_back(limit.angle);
-      along.values.push_back(locked ? limit.curvature : none);
+      along.values.push_back(locked ? sign * limit.curvature : none);
       along.uncertain.push_back(locked ? limit.equilibrium.remaining : none);
-      across.values.push_back(locked ? limit.orthogonal : none);
+      across.values.push_back(locked ? sign * limit.orthogonal : none);
     }
     all.curves.push_back(along);
     all.curves.push_back(across);

@@ -25,6 +25,7 @@ struct PolarCurves {
   double factor = 1;  ///< a value times this is in the unit
   int decimals = 2;   ///< that read-outs show
   std::vector<PolarCurve> curves;
+  std::string note = {};  ///< below the legend; empty: none
 };
 
 /// Limits of stretch and of compression and the free travel between them, in per cent; without a limit where none was
@@ -32,7 +33,8 @@ struct PolarCurves {
 PolarCurves freeTravelCurves(const FreeTravelResult& result);
 
 /// Limits of curvature along directions, up and down, and the curvatures across that the patch takes on there, in 1/m
-/// (thesis Fig. 4.7); without a value where the patch folds.
+/// (thesis Fig. 4.6); without a value where the patch folds. Where it is bent down both have the opposite sign, so that
+/// limits up and down compare, and a value across below 0 is that of a saddle either way.
 PolarCurves curvatureLimitCurves(const CurvatureLimitsResult& result);
 
 }  // namespace pliant::scene

@@ -68,11 +68,11 @@ StudyRegistry::StudyRegistry()
                  {"free_travel", makeFreeTravelStudy},
                  {"stretch_grid", makeStretchGridStudy},
                  {"stretch_boundary", makeStretchBoundaryStudy},
-                 {"bending_test", makeBendingStudy},
-                 {"curvature_limits", makeBendingStudy},
-                 {"bending_size", makeBendingStudy},
-                 {"bending_boundary", makeBendingStudy},
-                 {"gravity_bending", makeBendingStudy},
+                 {"bending_test", makeBendingTestStudy},
+                 {"curvature_limits", makeCurvatureLimitsStudy},
+                 {"bending_size", makeBendingSizeStudy},
+                 {"bending_boundary", makeBendingBoundaryStudy},
+                 {"gravity_bending", makeGravityBendingStudy},
                  {"macro_equilibrium", makeMacroEquilibriumStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {

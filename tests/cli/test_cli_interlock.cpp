@@ -1,5 +1,6 @@
 #include <QTemporaryDir>
 #include <QTest>
+#include <set>
 
 #include "core/geometry/surface_mesh.hpp"
 #include "core/scene/json_text.hpp"
@@ -18,6 +19,20 @@ constexpr const char* netScene = R"({
     {"name": "stretch", "type": "cell_test", "direction": "90 deg"},
     {"name": "travel", "type": "free_travel", "directions": 4},
     {"name": "boundary", "type": "stretch_boundary", "subdivisions": 1}
+  ]
+})";
+
+constexpr const char* thickScene = R"({
+  "schema_version": 1,
+  "interlocking_cells": [{"name": "thick", "type": "threefold", "ring_radius": "5.2 mm", "wire_radius": "1.6 mm",
+                          "distance": "5 mm", "lean": "50 deg", "spacing": "13.5 mm"}],
+  "studies": [
+    {"name": "bend", "type": "bending_test", "radius": "14 mm", "trials": 1},
+    {"name": "limits", "type": "curvature_limits", "radius": "14 mm", "final_gap": 0.05, "directions": 1, "trials": 1},
+    {"name": "size", "type": "bending_size", "radii": ["14 mm"], "trials": 1, "final_gap": 0.05},
+    {"name": "boundary", "type": "bending_boundary", "radius": "14 mm", "subdivisions": 0, "trials": 1,
+     "test_star_shape": false, "final_gap": 0.05},
+    {"name": "hang", "type": "gravity_bending", "size": ["60 mm", "5 mm"]}
   ]
 })";
 
@@ -50,6 +65,44 @@ class TestCliInterlock : public QObject {
     QVERIFY2(exported.status == 0, qPrintable(exported.errors));
     QVERIFY(exported.output.contains("42 limits, 80 triangles"));
     QCOMPARE(geometry::readMesh(file("b.stl").toStdString(), 1).triangles.size(), std::size_t(80));
+  }
+
+  /// Patches in their equilibrium, limits over directions and sizes, the boundary in curvature.
+  void bendingIsDrawn() {
+    scene::writeTextFile(file("thick.json").toStdString(), thickScene);
+    const auto run = runCli({"run", file("thick.json"), "--out", file("bent")});
+    QVERIFY2(run.status == 0, qPrintable(run.errors));
+    const auto exported = [&](const char* name) {
+      return runCli(
+          {"export", file("thick.json"), "--result", file("bent"), "--study", "boundary", "--out", file(name)});
+    };
+    QVERIFY(exported("k.ply").output.contains("12 limits, 20 triangles, in curvature [1/m]"));
+    QCOMPARE(geometry::readMesh(file("k.ply").toStdString(), 1).triangles.size(), std::size_t(20));
+    QVERIFY(exported("k.csv").output.contains("12 limits"));
+    QVERIFY(bytes("k.csv") == bytes("bent/boundary/boundary.csv"));
+#ifdef PLIANT_HAS_RENDERER
+    const auto picture = [&](const char* study, const QStringList& more = {}) {
+      return runCli(QStringList{"render", file("thick.json"), "--result", file("bent"), "--study", study, "--out",
+                                file(study) + ".png", "--size", "480x360"} +
+                    more);
+    };
+    std::set<std::string> pictures;
+    for (const char* study : {"bend", "limits", "size", "boundary", "hang"}) {
+      const auto result = picture(study);
+      QVERIFY2(result.status == 0, qPrintable(result.errors));
+      pictures.insert(scene::readTextFile((file(study) + ".png").toStdString()));
+      QVERIFY(pictures.rbegin()->starts_with("\x89PNG"));
+    }
+    QCOMPARE(pictures.size(), std::size_t(5));
+    QVERIFY(picture("boundary", {"--slice", "k_xy=2 1/m"}).status == 0);
+    QVERIFY(picture("boundary", {"--slice", "E_xy=2 %"}).errors.contains("Expected k_xx, k_yy or k_xy"));
+    QVERIFY(picture("boundary", {"--compare", file("results") + "/boundary"}).errors.contains("one is of stretch"));
+    // Polar plots and charts in one picture.
+    const auto plotted =
+        runCli({"plot", file("thick.json"), "--result", file("bent"), "--out", file("q.png"), "--size", "640x320"});
+    QVERIFY2(plotted.status == 0, qPrintable(plotted.errors));
+    QVERIFY(bytes("q.png").starts_with("\x89PNG"));
+#endif
   }
 
   void resultsAreDrawn() {

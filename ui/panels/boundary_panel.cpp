@@ -3,15 +3,9 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
-#include <QFileInfo>
-#include <QFormLayout>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QPointer>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStackedLayout>
@@ -19,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ui/render/patch_configuration.hpp"
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::panels {
@@ -26,9 +21,6 @@ namespace pliant::panels {
 using document::StudyStatus;
 
 namespace {
-
-const std::string boundaryType = "stretch_boundary";
-constexpr int controlWidth = 216, controlHeight = 26, sliceSteps = 400;
 
 QString percent(double strain, int digits = 4) {
   const QString number = QString::number(std::abs(100 * strain), 'g', digits);
@@ -50,165 +42,40 @@ QString strainText(const Eigen::Vector3d& greenStrain) {
       .arg(stretch.smaller, 0, 'f', 4);
 }
 
+bool BoundaryPanel::shows(const std::string& type) { return type == "stretch_boundary" || type == "bending_boundary"; }
+
 BoundaryPanel::BoundaryPanel(document::Document& document, jobs::JobRunner& quick, QWidget* parent)
     : QWidget(parent), document_(document), quick_(quick), view_(std::make_shared<render::BoundaryView>()) {
   makeWidgets();
+  refreshSliceAxes();
   connectParts();
   fillStudies();
   refresh();
-}
-
-void BoundaryPanel::makeWidgets() {
-  auto* empty = new QWidget;
-  auto* middle = new QVBoxLayout(empty);
-  note_ = new QLabel;
-  note_->setWordWrap(true);
-  note_->setAlignment(Qt::AlignCenter);
-  run_ = new QPushButton;
-  middle->addStretch();
-  middle->addWidget(note_);
-  middle->addWidget(run_, 0, Qt::AlignHCenter);
-  middle->addStretch();
-
-  viewport_ = new viewport::Viewport;
-  viewport_->setAccessibleName(tr("Strain-space boundary"));
-  viewport_->setMouseTracking(true);
-  viewport_->installEventFilter(this);
-  viewport_->setGuest(view_);
-  viewport_->setAxisView(render::AxisView::isometric);
-  readout_ = new QLabel;
-  readout_->setContentsMargins(12, 2, 12, 4);
-  readout_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  readout_->setWordWrap(true);
-  // Its room is kept, so that the surface does not move under the pointer.
-  readout_->setFixedHeight(2 * readout_->fontMetrics().height() + 8);
-  readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* shown = new QWidget;
-  auto* row = new QHBoxLayout;
-  row->setSpacing(0);
-  row->addWidget(viewport_, 1);
-  row->addWidget(makeControls());
-  auto* column = new QVBoxLayout(shown);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addLayout(row, 1);
-  column->addWidget(readout_);
-  pages_ = new QStackedLayout(this);
-  pages_->addWidget(empty);
-  pages_->addWidget(shown);
-}
-
-QWidget* BoundaryPanel::makeControls() {
-  auto* controls = new QWidget;
-  // Scrolled where the dock is low, which they would otherwise keep high for all scenes.
-  auto* area = new QScrollArea;
-  area->setFrameShape(QFrame::NoFrame);
-  area->setWidgetResizable(true);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setFixedWidth(controlWidth);
-  auto* form = new QFormLayout(controls);
-  form->setContentsMargins(8, 8, 12, 8);
-  form->setHorizontalSpacing(8);
-  form->setVerticalSpacing(4);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  const auto combo = [&](const QString& label, const QString& tooltip) {
-    auto* made = new QComboBox;
-    made->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    made->setFixedHeight(controlHeight);
-    made->setToolTip(tooltip);
-    made->setAccessibleName(label);
-    form->addRow(label, made);
-    return made;
-  };
-  studies_ = combo(tr("Study"), tr("Whose boundary is shown"));
-  quantities_ = combo(tr("Colour"), tr("What colours the surface"));
-  comparisons_ = combo(tr("Compare"), tr("Another boundary, drawn over this one"));
-  opacity_ = new QSlider(Qt::Horizontal);
-  opacity_->setRange(15, 100);
-  opacity_->setValue(100);
-  opacity_->setToolTip(tr("How opaque the surface is"));
-  form->addRow(tr("Opacity"), opacity_);
-  sliceAxes_ = combo(tr("Slice"), tr("Cut by a plane across an axis"));
-  sliceAxes_->addItems({tr("none"), tr("E_x = const"), tr("E_y = const"), tr("E_xy = const")});
-  slice_ = new QSlider(Qt::Horizontal);
-  slice_->setRange(0, sliceSteps);
-  slice_->setToolTip(tr("Where it is cut"));
-  slice_->setAccessibleName(tr("Place of the slice"));
-  sliceValue_ = new QDoubleSpinBox;
-  sliceValue_->setSuffix(QStringLiteral(" %"));
-  sliceValue_->setDecimals(2);
-  sliceValue_->setRange(-10000, 10000);
-  sliceValue_->setKeyboardTracking(false);
-  sliceValue_->setFixedHeight(controlHeight);
-  sliceValue_->setAccessibleName(tr("Place of the slice"));
-  form->addRow(tr("at"), sliceValue_);
-  form->addRow(QString(), slice_);
-  shadows_ = new QCheckBox(tr("projections"));
-  shadows_->setChecked(true);
-  shadows_->setToolTip(tr("The surface's shadows on the walls"));
-  states_ = new QCheckBox(tr("computed limits"));
-  states_->setToolTip(tr("A dot at each limit that was computed; the surface is flat between them"));
-  form->addRow(QString(), shadows_);
-  form->addRow(QString(), states_);
-  auto* exporter = new QPushButton(tr("Export…"));
-  exporter->setToolTip(tr("A picture of the surface (PNG), the surface (PLY and others), or its limits (CSV)"));
-  connect(exporter, &QPushButton::clicked, this, &BoundaryPanel::exportRequested);
-  form->addRow(QString(), exporter);
-  area->setWidget(controls);
-  return area;
-}
-
-void BoundaryPanel::connectParts() {
-  connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(study()); });
-  connect(studies_, &QComboBox::activated, this, [this] { refresh(); });
-  connect(quantities_, &QComboBox::activated, this, &BoundaryPanel::applyStyle);
-  connect(comparisons_, &QComboBox::activated, this, &BoundaryPanel::chooseComparison);
-  connect(opacity_, &QSlider::valueChanged, this, &BoundaryPanel::applyStyle);
-  connect(shadows_, &QCheckBox::toggled, this, &BoundaryPanel::applyStyle);
-  connect(states_, &QCheckBox::toggled, this, &BoundaryPanel::applyStyle);
-  connect(sliceAxes_, &QComboBox::activated, this, [this] {
-    const QSignalBlocker block(sliceValue_);
-    sliceValue_->setValue(0);
-    refreshSlice();
-    applyStyle();
-  });
-  connect(slice_, &QSlider::valueChanged, this, [this](int place) {
-    const auto [low, high] = view_->range(sliceAxes_->currentIndex() - 1);
-    const QSignalBlocker block(sliceValue_);
-    sliceValue_->setValue(100 * std::lerp(low, high, static_cast<double>(place) / sliceSteps));
-    applyStyle();
-  });
-  connect(sliceValue_, &QDoubleSpinBox::valueChanged, this, [this] {
-    refreshSlice();
-    applyStyle();
-  });
-  connect(viewport_, &viewport::Viewport::hovered, this, &BoundaryPanel::hover);
-  connect(viewport_, &viewport::Viewport::nodePicked, this, &BoundaryPanel::examine);
-  connect(&document_, &document::Document::sceneReplaced, this, [this] {
-    files_.clear();
-    wanted_.clear();
-    examine(-1);
-    fillStudies();
-    refresh();
-  });
-  connect(&document_, &document::Document::sceneEdited, this, [this] {
-    fillStudies();
-    refresh();
-  });
-  connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
-    if (name == study()) refresh();
-    fillComparisons();
-    if (comparisons_->currentText().toStdString() == name) refreshCompared();
-  });
 }
 
 std::string BoundaryPanel::study() const { return studies_->currentText().toStdString(); }
 
 QString BoundaryPanel::readout() const { return readout_->text(); }
 
-std::shared_ptr<const scene::StretchBoundaryResult> BoundaryPanel::resultOf(const std::string& name) const {
+std::shared_ptr<const scene::LimitSurface> BoundaryPanel::resultOf(const std::string& name) const {
   const document::StudyState* state = document_.study(name);
-  return state ? std::dynamic_pointer_cast<const scene::StretchBoundaryResult>(state->result) : nullptr;
+  return state ? std::dynamic_pointer_cast<const scene::LimitSurface>(state->result) : nullptr;
+}
+
+const scene::BoundarySpace& BoundaryPanel::space() const {
+  const document::StudyState* state = document_.study(study());
+  return state && state->type == "bending_boundary" ? scene::curvatureSpace() : scene::strainSpace();
+}
+
+double BoundaryPanel::factor() const { return space().factor; }
+
+QString BoundaryPanel::distanceText(double value, int digits) const {
+  return (value < 0 ? QStringLiteral("−") : QString()) + QString::number(std::abs(factor() * value), 'g', digits) +
+         ' ' + QString::fromStdString(space().unit);
+}
+
+QString BoundaryPanel::placeText(const Eigen::Vector3d& place) const {
+  return space().unit == "%" ? strainText(place) : QString::fromStdString(render::curvatureText(place));
 }
 
 void BoundaryPanel::setStudy(const std::string& name) {
@@ -222,85 +89,9 @@ void BoundaryPanel::fillStudies() {
   const QString before = studies_->currentText();
   studies_->clear();
   for (const document::StudyState& study : document_.studies())
-    if (study.type == boundaryType) studies_->addItem(QString::fromStdString(study.name));
+    if (shows(study.type)) studies_->addItem(QString::fromStdString(study.name));
   studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
   fillComparisons();
-}
-
-/// None, the other studies that have a boundary, files that were read, and a file to choose.
-void BoundaryPanel::fillComparisons() {
-  const QString before = comparisons_->currentText();
-  comparisons_->clear();
-  comparisons_->addItem(tr("none"));
-  for (const document::StudyState& study : document_.studies())
-    if (study.type == boundaryType && study.name != this->study() && resultOf(study.name))
-      comparisons_->addItem(QString::fromStdString(study.name));
-  for (const auto& [name, surface] : files_) comparisons_->addItem(name);
-  comparisons_->addItem(tr("from disk…"));
-  comparisons_->setCurrentIndex(std::max(0, comparisons_->findText(before)));
-}
-
-void BoundaryPanel::chooseComparison(int index) {
-  if (index != comparisons_->count() - 1) {
-    refreshCompared();
-    return;
-  }
-  const QString file = QFileDialog::getOpenFileName(this, tr("Compare with a boundary"), {}, tr("Boundaries (*.ply)"));
-  comparisons_->setCurrentIndex(0);
-  refreshCompared();
-  if (!file.isEmpty()) compareWithFile(file);
-}
-
-void BoundaryPanel::compareWithStudy(const std::string& name) {
-  comparisons_->setCurrentIndex(std::max(0, comparisons_->findText(QString::fromStdString(name))));
-  refreshCompared();
-}
-
-void BoundaryPanel::compareWithFile(const QString& file) {
-  wanted_ = file;
-  jobs::Job job;
-  job.topic = QStringLiteral("boundary file");
-  job.title = tr("Read %1").arg(QFileInfo(file).fileName());
-  job.work = [panel = QPointer<BoundaryPanel>(this), file](
-                 base::ExecutionContext&, const jobs::Publish&) -> jobs::Delivery {
-    QString problem;
-    std::shared_ptr<const scene::BoundarySurface> surface;
-    try {
-      surface = std::make_shared<scene::BoundarySurface>(scene::readBoundarySurface(file.toStdString()));
-    } catch (const std::exception& error) {
-      problem = QString::fromUtf8(error.what());
-    }
-    return [panel, file, surface, problem] {
-      if (BoundaryPanel* self = panel.data()) self->takeFile(file, surface, problem);
-    };
-  };
-  quick_.submit(std::move(job));
-}
-
-void BoundaryPanel::takeFile(const QString& file, const std::shared_ptr<const scene::BoundarySurface>& surface,
-                             const QString& problem) {
-  if (wanted_ != file) return;
-  wanted_.clear();
-  if (!surface) {
-    document_.raise(base::Severity::warning, problem);
-    return;
-  }
-  const QString name = QString::fromStdString(surface->name);
-  files_[name] = surface;
-  fillComparisons();
-  comparisons_->setCurrentIndex(comparisons_->findText(name));
-  refreshCompared();
-}
-
-void BoundaryPanel::refreshCompared() {
-  const QString name = comparisons_->currentText();
-  const auto file = files_.find(name);
-  const auto other = comparisons_->currentIndex() > 0 ? resultOf(name.toStdString()) : nullptr;
-  compared_ = file != files_.end() ? file->second
-              : other              ? std::make_shared<scene::BoundarySurface>(scene::boundarySurface(*other))
-                                   : nullptr;
-  view_->setCompared(compared_);
-  viewport_->redrawGuest(true);
 }
 
 bool BoundaryPanel::eventFilter(QObject* watched, QEvent* event) {
@@ -326,8 +117,8 @@ void BoundaryPanel::refresh() {
   run_->setEnabled(state && !isUnderWay(*state));
   run_->setText(tr("Run %1").arg(studies_->currentText()));
   note_->setText(
-      !state ? tr("A study of the type stretch_boundary finds all deformations that an interlocking material "
-                  "can reach. This scene has none; add one in the scene's tree.")
+      !state ? tr("Studies of the types stretch_boundary and bending_boundary find all deformations that an "
+                  "interlocking material can reach. This scene has none; add one in the scene's tree.")
       : isUnderWay(*state)
           ? tr("The first limits are on their way.")
           : tr("The study “%1” finds all deformations that this material can reach.").arg(studies_->currentText()));
@@ -336,12 +127,19 @@ void BoundaryPanel::refresh() {
     const bool otherRays =
         !result || !result_ || result->boundary.mesh.directions.size() != result_->boundary.mesh.directions.size();
     result_ = result;
-    surface_ = result ? std::make_shared<scene::BoundarySurface>(scene::boundarySurface(*result)) : nullptr;
+    surface_ = result ? std::make_shared<scene::BoundarySurface>(scene::boundarySurface(*result, study())) : nullptr;
     if (surface_ && surface_->triangles.empty()) surface_ = nullptr;
     if (otherRays && view_->selected()) examine(-1);
     view_->setSurface(surface_);
     refreshQuantities();
     refreshSlice();
+  }
+  if (state && state->name != shownStudy_) {
+    shownStudy_ = state->name;
+    if (view_->selected()) examine(-1);
+    refreshSliceAxes();
+    fillComparisons();
+    refreshCompared();
   }
   pages_->setCurrentIndex(surface_ ? 1 : 0);
   if (!state || !surface_) return;
@@ -382,6 +180,21 @@ void BoundaryPanel::refreshQuantities() {
   applyStyle();
 }
 
+/// Names, unit and steps of the space; a slice stays where the axes stay.
+void BoundaryPanel::refreshSliceAxes() {
+  const QString unit = QStringLiteral(" ") + QString::fromStdString(space().unit);
+  if (sliceValue_->suffix() == unit) return;
+  const QSignalBlocker block(sliceValue_);
+  sliceValue_->setSuffix(unit);
+  sliceValue_->setSingleStep(unit == QLatin1String(" %") ? 0.5 : 2);
+  sliceValue_->setValue(0);
+  sliceAxes_->clear();
+  sliceAxes_->addItem(tr("none"));
+  for (const std::string& axis : space().axes) sliceAxes_->addItem(tr("%1 = const").arg(QString::fromStdString(axis)));
+  refreshSlice();
+  applyStyle();
+}
+
 void BoundaryPanel::refreshSlice() {
   const int axis = sliceAxes_->currentIndex() - 1;
   for (QWidget* widget : std::initializer_list<QWidget*>{slice_, sliceValue_}) widget->setEnabled(axis >= 0);
@@ -389,7 +202,8 @@ void BoundaryPanel::refreshSlice() {
   const auto [low, high] = view_->range(axis);
   const QSignalBlocker block(slice_);
   if (high > low)
-    slice_->setValue(static_cast<int>(std::lround(sliceSteps * (0.01 * sliceValue_->value() - low) / (high - low))));
+    slice_->setValue(
+        static_cast<int>(std::lround(sliceSteps * (sliceValue_->value() / factor() - low) / (high - low))));
 }
 
 void BoundaryPanel::applyStyle() {
@@ -399,7 +213,7 @@ void BoundaryPanel::applyStyle() {
   style.shadows = shadows_->isChecked();
   style.states = states_->isChecked();
   if (sliceAxes_->currentIndex() > 0) style.sliceAxis = sliceAxes_->currentIndex() - 1;
-  style.slicePosition = 0.01 * sliceValue_->value();
+  style.slicePosition = sliceValue_->value() / factor();
   view_->setStyle(style);
   viewport_->redrawGuest();
 }
@@ -424,13 +238,13 @@ void BoundaryPanel::examine(int state) {
 
 QString BoundaryPanel::describe(int state) const {
   if (!surface_ || state >= surface_->points.cols()) return {};
-  QString text = strainText(surface_->points.col(state)) + '\n';
+  QString text = placeText(surface_->points.col(state)) + '\n';
   const interlock::BoundaryState& limit = result_->boundary.states[static_cast<std::size_t>(state)];
   text += tr("Limit %1:  distance %2,  could gain %3,  %4 touching pairs,  gap %5 r")
               .arg(state)
-              .arg(percent(limit.distance), percent(limit.remaining, 2))
+              .arg(distanceText(limit.distance), distanceText(limit.remaining, 2))
               .arg(limit.contacts)
-              .arg(limit.meanGap / result_->cell->smallestRadius(), 0, 'g', 2);
+              .arg(limit.meanGap / result_->body()->smallestRadius(), 0, 'g', 2);
   if (limit.seesBeyond)
     text += tr(";  not star-shaped here");
   else if (limit.raised)

@@ -27,7 +27,8 @@ namespace pliant::panels {
 /// "E_x 8.317 %,  E_y −3.1 %,  E_xy 0.02 %" and the stretches that it means.
 QString strainText(const Eigen::Vector3d& greenStrain);
 
-/// The strain-space boundaries that studies of the document find (thesis Fig. 4.4), which fill in while they run:
+/// The boundaries of stretch and of bending that studies of the document find (thesis Fig. 4.4), which fill in while
+/// they run:
 /// turned with the mouse, cut, compared with another one, read out under the pointer. A click examines a limit.
 class BoundaryPanel final : public QWidget {
   Q_OBJECT
@@ -40,7 +41,9 @@ class BoundaryPanel final : public QWidget {
   std::string study() const;
   void setStudy(const std::string& name);
   /// Null: nothing to show yet.
-  const std::shared_ptr<const scene::StretchBoundaryResult>& result() const { return result_; }
+  const std::shared_ptr<const scene::LimitSurface>& result() const { return result_; }
+  /// Whether it shows results of studies of this type.
+  static bool shows(const std::string& type);
   const std::shared_ptr<const scene::BoundarySurface>& surface() const { return surface_; }
   render::BoundaryView& view() { return *view_; }
   viewport::Viewport& viewport() { return *viewport_; }
@@ -66,6 +69,7 @@ class BoundaryPanel final : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  static constexpr int sliceSteps = 400;
   void makeWidgets();
   QWidget* makeControls();
   void connectParts();
@@ -79,20 +83,27 @@ class BoundaryPanel final : public QWidget {
   void refreshCompared();
   void refreshQuantities();
   void refreshSlice();
+  void refreshSliceAxes();
   void applyStyle();
   void hover(std::optional<QPointF> place);
   QString caption(const document::StudyState& study) const;
   QString describe(int state) const;
-  std::shared_ptr<const scene::StretchBoundaryResult> resultOf(const std::string& name) const;
+  std::shared_ptr<const scene::LimitSurface> resultOf(const std::string& name) const;
+  /// A distance in the unit of the space, such as "8.317 %".
+  QString distanceText(double value, int digits = 4) const;
+  const scene::BoundarySpace& space() const;
+  double factor() const;
+  QString placeText(const Eigen::Vector3d& place) const;
 
   document::Document& document_;
   jobs::JobRunner& quick_;
-  std::shared_ptr<const scene::StretchBoundaryResult> result_;
+  std::shared_ptr<const scene::LimitSurface> result_;
   std::shared_ptr<const scene::BoundarySurface> surface_, compared_;
   std::map<QString, std::shared_ptr<const scene::BoundarySurface>> files_;  ///< that were read, by name
   QString wanted_;                                                          ///< file that is being read
   std::shared_ptr<render::BoundaryView> view_;
   std::optional<int> hovered_;
+  std::string shownStudy_;
 
   QStackedLayout* pages_;
   QLabel* note_;

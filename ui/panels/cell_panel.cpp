@@ -163,7 +163,10 @@ void CellPanel::refresh(bool another) {
   for (int i = 0; i < count; ++i) cells_->addItem(entryName(entries[static_cast<std::size_t>(i)], i));
   cells_->setCurrentIndex(index_);
   cells_->setVisible(count > 1);
-  if (another) inspector_.forget();
+  if (another) {
+    inspector_.forget();
+    family_.clear();  // sliders of another scene have ends of their own
+  }
   if (index_ < 0) {
     draft_ = Json();
     family_.clear();

@@ -1,13 +1,9 @@
 #include "ui/panels/cell_parameter_row.hpp"
 
-#include <QGridLayout>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QToolButton>
 #include <cmath>
 #include <numbers>
 
-#include "ui/panels/icon.hpp"
 #include "ui/panels/parameter_slider.hpp"
 #include "ui/panels/value_field.hpp"
 #include "ui/panels/value_text.hpp"
@@ -16,7 +12,7 @@ namespace pliant::panels {
 
 namespace {
 
-constexpr int endWidth = 56;
+constexpr double beyond = 1.25;  ///< a value that was typed, that the slider goes
 constexpr double perDegree = std::numbers::pi / 180;
 
 /// How a quantity is written: its unit, how many SI units that is, and to which part of it a hand is exact.
@@ -46,19 +42,18 @@ QString nameOf(const base::ParameterSpec& spec) {
   return meaning;
 }
 
-QLabel* endLabel(QWidget* parent) {
-  auto* label = new QLabel(parent);
-  QFont small = label->font();
-  small.setPointSizeF(small.pointSizeF() * 0.9);
-  label->setFont(small);
-  label->setForegroundRole(QPalette::PlaceholderText);
-  return label;
-}
-
 double defaultOf(const base::ParameterSpec& spec) {
   if (spec.defaultValue.is_number()) return spec.defaultValue.get<double>();
   if (spec.defaultValue.is_string()) return base::parseQuantity(spec.defaultValue.get<std::string>(), spec.dimension);
   return 1;
+}
+
+/// The next of 1, 1.5, 2, 3, 4, 5, 6, 8 and 10 times a power of ten.
+double roundEnd(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (value <= step * decade * (1 + 1e-9)) return step * decade;
+  return 10 * decade;
 }
 
 }  // namespace
@@ -68,52 +63,9 @@ bool CellParameterRow::fits(const base::ParameterSpec& spec) {
 }
 
 CellParameterRow::CellParameterRow(base::ParameterSpec spec, QWidget* parent)
-    : QWidget(parent), spec_(std::move(spec)) {
-  const QString name = nameOf(spec_);
-  auto* title = new QLabel(this);
-  title->setText(
-      spec_.symbol.empty()
-          ? name
-          : QStringLiteral("%1&nbsp;&nbsp;<i>%2</i>").arg(name, QString::fromStdString(spec_.symbol).toHtmlEscaped()));
-  title->setToolTip(explanation(spec_));
-  field_ = new ValueField(this);
-  field_->setFixedWidth(88);
+    : SliderRow(nameOf(spec), spec, Ends::beside, parent), spec_(std::move(spec)) {
   field_->setToolTip(tr("Double-click to type an exact value, such as \"4.8 mm\"."));
-  field_->setAccessibleName(tr("Value of %1").arg(name));
-  reset_ = new QToolButton(this);
-  reset_->setAutoRaise(true);
-  reset_->setIcon(icon(QStringLiteral("reset")));
-  reset_->setIconSize({16, 16});
-  reset_->setFocusPolicy(Qt::NoFocus);
-  reset_->setAccessibleName(tr("Reset %1").arg(name));
-  QSizePolicy keepsPlace = reset_->sizePolicy();
-  keepsPlace.setRetainSizeWhenHidden(true);
-  reset_->setSizePolicy(keepsPlace);
-  slider_ = new ParameterSlider(this);
-  slider_->setAccessibleName(name);
   slider_->setToolTip(tr("Drag to see the material change. Arrow keys nudge, with Shift ten times finer."));
-  lowText_ = endLabel(this);
-  highText_ = endLabel(this);
-  lowText_->setFixedWidth(endWidth);
-  highText_->setFixedWidth(endWidth);
-  highText_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(16, 0, 8, 0);
-  grid->setHorizontalSpacing(4);
-  grid->setVerticalSpacing(0);
-  grid->setColumnStretch(0, 1);
-  grid->addWidget(title, 0, 0);
-  grid->addWidget(field_, 0, 1);
-  grid->addWidget(reset_, 0, 2);
-  auto* below = new QHBoxLayout;
-  below->setContentsMargins(0, 0, 8, 0);
-  below->setSpacing(4);
-  below->addWidget(lowText_);
-  below->addWidget(slider_, 1);
-  below->addWidget(highText_);
-  grid->addLayout(below, 1, 0, 1, 3);
-
   if (spec_.dimension == base::dimensions::angle) {
     low_ = std::max(-90 * perDegree, spec_.minimum);
     high_ = std::min(90 * perDegree, spec_.maximum);
@@ -156,24 +108,31 @@ QString CellParameterRow::shown(double value) const {
 void CellParameterRow::setValue(double value, double saved) {
   value_ = value;
   saved_ = saved;
-  if (value > high_) {
-    high_ = std::min(spec_.maximum, 2 * value);
-    showBounds();
-  }
+  widenTo(value);
   slider_->setReference(std::isfinite(saved) ? saved : value);
   slider_->setRealValue(value);
   const Unit unit = unitOf(spec_);
   const QString exact = QString::number(value / unit.size, 'g', 12);
   field_->setTexts(shown(value), unit.name.isEmpty() ? exact : exact + ' ' + unit.name);
-  const bool differs = std::isfinite(saved) && saved != value;
-  reset_->setVisible(differs);
-  if (differs) reset_->setToolTip(tr("Reset to %1, the value in the file").arg(shown(saved)));
+  showReset(std::isfinite(saved) && saved != value, shown(saved));
+}
+
+void CellParameterRow::widenTo(double value) {
+  if (value >= low_ && value <= high_) return;
+  const Unit unit = unitOf(spec_);
+  const double end = unit.size * roundEnd(beyond * std::abs(value) / unit.size);
+  if (value > high_)
+    high_ = std::min(spec_.maximum, value > 0 ? end : 0);
+  else if (value < 0)
+    low_ = std::max(spec_.minimum, -end);
+  else  // towards zero, which may be refused
+    low_ = std::max(spec_.exclusiveMinimum ? 0.5 * value : 0, spec_.minimum);
+  showBounds();
 }
 
 void CellParameterRow::showBounds() {
   slider_->setBounds(low_, high_);
-  lowText_->setText(shown(low_));
-  highText_->setText(shown(high_));
+  showEnds(shown(low_), shown(high_));
 }
 
 void CellParameterRow::commit(double value, bool nudge) {

@@ -1,21 +1,13 @@
 #pragma once
 
-#include <QWidget>
-
-#include "core/base/parameter_spec.hpp"
-
-class QLabel;
-class QToolButton;
+#include "ui/panels/slider_row.hpp"
 
 namespace pliant::panels {
 
-class ParameterSlider;
-class ValueField;
-
-/// One number of a material: name, symbol, value with its unit, slider with its ends, reset. What it means, its unit
-/// and its range come from the scene's format. Where that gives no end, the slider goes to twice the default, or to
-/// twice what was typed beyond; angles go to a right angle.
-class CellParameterRow final : public QWidget {
+/// One number of a material. What it means, its unit and its range come from the scene's format. Where that gives no
+/// end, the slider goes to twice the default, and angles to a right angle; a value typed beyond an end moves that end
+/// to a round number some way beyond it, as far as the format goes.
+class CellParameterRow final : public SliderRow {
   Q_OBJECT
 
  public:
@@ -25,8 +17,6 @@ class CellParameterRow final : public QWidget {
   static bool fits(const base::ParameterSpec& spec);
 
   const std::string& key() const { return spec_.key; }
-  ParameterSlider* slider() const { return slider_; }
-  ValueField* field() const { return field_; }
   /// The value in SI, and that in the file, to which reset goes back (NaN: none).
   void setValue(double value, double saved);
 
@@ -42,16 +32,12 @@ class CellParameterRow final : public QWidget {
   QString shown(double value) const;
   void commit(double value, bool nudge);
   void type(const QString& text);
+  void widenTo(double value);
   void showBounds();
 
   base::ParameterSpec spec_;
   double low_ = 0, high_ = 1;
   double value_ = 0, saved_ = 0;
-  ParameterSlider* slider_;
-  ValueField* field_;
-  QToolButton* reset_;
-  QLabel* lowText_;
-  QLabel* highText_;
 };
 
 }  // namespace pliant::panels

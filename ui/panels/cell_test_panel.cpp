@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/interlock/holding_contacts.hpp"
+#include "core/scene/bending_result.hpp"
 
 namespace pliant::panels {
 
@@ -25,29 +26,74 @@ enum Column {
   columnCount
 };
 
+QString signedNumber(double value, const QString& digits) {
+  return (value < 0 ? QStringLiteral("−") : QStringLiteral("+")) + digits;
+}
+
 QString signedPercent(double strain) {
-  return (strain < 0 ? QStringLiteral("−") : QStringLiteral("+")) +
-         QStringLiteral("%1 %").arg(100 * std::abs(strain), 0, 'f', 3);
+  return signedNumber(strain, QStringLiteral("%1 %").arg(100 * std::abs(strain), 0, 'f', 3));
 }
 
-/// "stretch 0°, free across", from the study's normalised entry.
+QString degrees(const scene::Json& options) {
+  return QString::number(options.value("direction", 0.0) * 180 / std::numbers::pi, 'g', 4);
+}
+
+/// "stretch at 0°, free across", from the study's normalised entry.
 QString loadText(const scene::Json& options) {
-  return QObject::tr("%1 at %2°, %3 across")
-      .arg(QString::fromStdString(options.value("load", "stretch")))
-      .arg(options.value("direction", 0.0) * 180 / std::numbers::pi, 0, 'g', 4)
-      .arg(QString::fromStdString(options.value("lateral", "free")));
+  const std::string type = options.value("type", "");
+  if (type == "gravity_bending") return QObject::tr("weight, clamped towards %1°").arg(degrees(options));
+  const bool bends = type == "bending_test";
+  const QString load = QString::fromStdString(bends ? options.value("bend", "up") : options.value("load", "stretch"));
+  return (bends ? QObject::tr("bend %1 at %2°, %3 across") : QObject::tr("%1 at %2°, %3 across"))
+      .arg(load, degrees(options), QString::fromStdString(options.value("lateral", "free")));
 }
 
-/// Where the elements of a cell touch; parts of a curve each have a share in a contact.
-std::size_t placesOf(const scene::CellTestResult& result) {
-  return interlock::distinctContacts(result.limit.equilibrium.contacts, 0.5 * result.cell->smallestRadius()).size();
+/// What a row says of a result.
+struct LimitRow {
+  QString limit, remaining, outcome;  ///< outcome: in the place of the state; empty: the state
+  const interlock::CellEquilibrium* rest = nullptr;
+  double radius = 1;  ///< of the thinnest wire [m]
+};
+
+std::optional<LimitRow> rowOf(const scene::Result* result) {
+  LimitRow row;
+  if (const auto* stretched = dynamic_cast<const scene::CellTestResult*>(result)) {
+    row.rest = &stretched->limit.equilibrium;
+    row.radius = stretched->cell->smallestRadius();
+    if (row.rest->kind == interlock::RestKind::unlimited)
+      row.outcome = QObject::tr("unlimited");
+    else
+      row.limit = signedPercent(stretched->limit.strain);
+    row.remaining = QStringLiteral("%1 %").arg(100 * row.rest->remaining, 0, 'g', 2);
+  } else if (const auto* bent = dynamic_cast<const scene::BendingTestResult*>(result)) {
+    row.rest = &bent->limit.equilibrium;
+    row.radius = bent->patch->smallestRadius();
+    if (bent->limit.kind == interlock::BendingKind::folded)
+      row.outcome = QObject::tr("folds");
+    else
+      row.limit =
+          signedNumber(bent->limit.curvature, QStringLiteral("%1 1/m").arg(std::abs(bent->limit.curvature), 0, 'f', 2));
+    row.remaining = QStringLiteral("%1 1/m").arg(row.rest->remaining, 0, 'g', 2);
+  } else if (const auto* hanging = dynamic_cast<const scene::GravityBendingResult*>(result)) {
+    row.rest = &hanging->rest;
+    row.radius = hanging->patch->smallestRadius();
+    const double drop = hanging->summary()["tip_displacement"]["z"];
+    row.limit = QObject::tr("tip %1 mm").arg(signedNumber(drop, QString::number(1e3 * std::abs(drop), 'f', 2)));
+  }
+  if (!row.rest || row.rest->state.rotations.empty() || !row.rest->converged()) return std::nullopt;
+  return row;
 }
 
-std::shared_ptr<const scene::CellTestResult> resultOf(const document::StudyState& study) {
-  return std::dynamic_pointer_cast<const scene::CellTestResult>(study.result);
+/// Where elements touch; parts of a curve each have a share in a contact.
+std::size_t placesOf(const LimitRow& row) {
+  return interlock::distinctContacts(row.rest->contacts, 0.5 * row.radius).size();
 }
 
 }  // namespace
+
+bool CellTestPanel::shows(const std::string& type) {
+  return type == "cell_test" || type == "bending_test" || type == "gravity_bending";
+}
 
 CellTestPanel::CellTestPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
   table_ = new QTableWidget(0, columnCount);
@@ -97,7 +143,7 @@ void CellTestPanel::refresh() {
   const int current = table_->currentRow();
   std::vector<const document::StudyState*> tests;
   for (const document::StudyState& study : document_.studies())
-    if (study.type == "cell_test") tests.push_back(&study);
+    if (shows(study.type)) tests.push_back(&study);
   names_.clear();
   table_->setRowCount(1 + static_cast<int>(tests.size()));
   const auto put = [&](int row, int column, const QString& text, bool number = true) {
@@ -114,16 +160,13 @@ void CellTestPanel::refresh() {
     put(row, nameColumn, QString::fromStdString(study.name), false);
     for (const scene::Json& entry : studies)
       if (entry.value("name", "") == study.name) put(row, loadColumn, loadText(entry), false);
-    const auto result = resultOf(study);
-    const bool any = result && !result->limit.equilibrium.state.rotations.empty();
-    const interlock::CellEquilibrium* rest = any ? &result->limit.equilibrium : nullptr;
-    const bool limited = any && rest->converged() && rest->kind != interlock::RestKind::unlimited;
-    put(row, limitColumn, limited ? signedPercent(result->limit.strain) : QString());
-    put(row, remainingColumn, limited ? QStringLiteral("%1 %").arg(100 * rest->remaining, 0, 'g', 2) : QString());
-    put(row, contactColumn, limited ? QString::number(placesOf(*result)) : QString());
-    put(row, gapColumn, limited ? QString::number(rest->meanGap / result->cell->smallestRadius(), 'g', 2) : QString());
-    put(row, stateColumn,
-        any && rest->kind == interlock::RestKind::unlimited ? tr("unlimited") : toString(study.status), false);
+    const auto found = rowOf(study.result.get());
+    const bool limited = found && found->outcome.isEmpty();
+    put(row, limitColumn, limited ? found->limit : QString());
+    put(row, remainingColumn, limited ? found->remaining : QString());
+    put(row, contactColumn, limited ? QString::number(placesOf(*found)) : QString());
+    put(row, gapColumn, limited ? QString::number(found->rest->meanGap / found->radius, 'g', 2) : QString());
+    put(row, stateColumn, found && !limited ? found->outcome : toString(study.status), false);
     if (!study.message.isEmpty()) table_->item(row, stateColumn)->setToolTip(study.message);
   }
   if (current < table_->rowCount()) table_->setCurrentCell(current, current < 0 ? -1 : 0);

@@ -1,12 +1,10 @@
 #include "ui/panels/parameter_row.hpp"
 
 #include <QGridLayout>
-#include <QLabel>
 #include <QToolButton>
 #include <cmath>
 
 #include "ui/panels/effect_bar.hpp"
-#include "ui/panels/icon.hpp"
 #include "ui/panels/parameter_slider.hpp"
 #include "ui/panels/value_field.hpp"
 #include "ui/panels/value_text.hpp"
@@ -21,72 +19,28 @@ int mergeIdOf(const std::string& pointer) {
   return static_cast<int>(qHash(QString::fromStdString(pointer)) & 0x3fffffff);
 }
 
-QLabel* mutedLabel(QWidget* parent) {
-  auto* label = new QLabel(parent);
-  QFont small = label->font();
-  small.setPointSizeF(small.pointSizeF() * 0.9);
-  label->setFont(small);
-  label->setForegroundRole(QPalette::PlaceholderText);
-  return label;
+base::ParameterSpec specOf(const document::Document& document, const mechanics::DesignParameter& parameter) {
+  if (const base::ParameterSpec* declared = scene::specAt(document.scene(), parameter.pointer())) return *declared;
+  base::ParameterSpec spec;
+  spec.dimension = parameter.dimension();
+  return spec;
 }
 
 }  // namespace
 
 ParameterRow::ParameterRow(document::Document& document, std::shared_ptr<const mechanics::DesignParameter> parameter,
                            double& impliedMaximum, QWidget* parent)
-    : QWidget(parent),
+    : SliderRow(QString::fromStdString(parameter->name()), specOf(document, *parameter), Ends::below, parent),
       document_(document),
       parameter_(std::move(parameter)),
       pointer_(parameter_->pointer()),
       name_(parameter_->name()),
-      impliedMaximum_(impliedMaximum) {
-  spec_.dimension = parameter_->dimension();
-  if (const base::ParameterSpec* declared = scene::specAt(document_.scene(), pointer_)) spec_ = *declared;
-  const QString name = QString::fromStdString(parameter_->name());
-
-  auto* title = new QLabel(this);
-  title->setText(spec_.symbol.empty()
-                     ? name.toHtmlEscaped()
-                     : QStringLiteral("%1&nbsp;&nbsp;<i>%2</i>")
-                           .arg(name.toHtmlEscaped(), QString::fromStdString(spec_.symbol).toHtmlEscaped()));
-  title->setToolTip(explanation(spec_));
-  field_ = new ValueField(this);
-  field_->setFixedWidth(96);
+      impliedMaximum_(impliedMaximum),
+      spec_(specOf(document, *parameter_)) {
   field_->setToolTip(tr("Double-click to type an exact value, such as \"12 g\"."));
-  field_->setAccessibleName(tr("Value of %1").arg(name));
-  reset_ = new QToolButton(this);
-  reset_->setAutoRaise(true);
-  reset_->setIcon(icon(QStringLiteral("reset")));
-  reset_->setIconSize({16, 16});
-  reset_->setFocusPolicy(Qt::NoFocus);
-  reset_->setAccessibleName(tr("Reset %1").arg(name));
-  QSizePolicy keepsPlace = reset_->sizePolicy();
-  keepsPlace.setRetainSizeWhenHidden(true);
-  reset_->setSizePolicy(keepsPlace);
-  slider_ = new ParameterSlider(this);
-  slider_->setAccessibleName(name);
   slider_->setToolTip(tr("Drag to see the predicted motion. Arrow keys nudge, with Shift ten times finer."));
-  low_ = mutedLabel(this);
-  high_ = mutedLabel(this);
-  high_->setAlignment(Qt::AlignRight);
   effect_ = new EffectBar(this);
-
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(16, 8, 8, 8);
-  grid->setHorizontalSpacing(4);
-  grid->setVerticalSpacing(0);
-  grid->setColumnStretch(0, 1);
-  grid->addWidget(title, 0, 0);
-  grid->addWidget(field_, 0, 1);
-  grid->addWidget(reset_, 0, 2);
-  auto* below = new QGridLayout;
-  below->setContentsMargins(0, 0, 8, 0);
-  below->setVerticalSpacing(0);
-  below->addWidget(slider_, 0, 0, 1, 2);
-  below->addWidget(low_, 1, 0);
-  below->addWidget(high_, 1, 1);
-  below->addWidget(effect_, 2, 0, 1, 2);
-  grid->addLayout(below, 1, 0, 1, 3);
+  below_->addWidget(effect_, 2, 0, 1, 2);
 
   connect(slider_, &ParameterSlider::dragged, this, [this](double value) {
     const RoundedQuantity near = rounded(value, spec_.dimension);
@@ -161,13 +115,11 @@ void ParameterRow::refresh() {
   const auto text = [&](double number) {
     return QString::fromStdString(base::formatQuantity(number, spec_.dimension));
   };
-  low_->setText(text(low));
-  high_->setText(text(high));
+  showEnds(text(low), text(high));
   field_->setTexts(text(value), editText(value, Json(), spec_));
   const Json saved = document_.savedValueAt(pointer_);
   const bool differs = saved.is_number() && saved.get<double>() != value;
-  reset_->setVisible(differs);
-  if (differs) reset_->setToolTip(tr("Reset to %1, the value in the file").arg(text(saved.get<double>())));
+  showReset(differs, differs ? text(saved.get<double>()) : QString());
 }
 
 void ParameterRow::setReference(double value) { slider_->setReference(value); }

@@ -1,25 +1,19 @@
 #pragma once
 
-#include <QWidget>
-
 #include "core/mechanics/design_parameter.hpp"
 #include "ui/document/document.hpp"
-
-class QLabel;
-class QToolButton;
+#include "ui/panels/slider_row.hpp"
 
 namespace pliant::panels {
 
 class EffectBar;
-class ParameterSlider;
-class ValueField;
 
 /// One design parameter: name, symbol, value, slider with bounds, reset, and what it does to the amplitude.
 ///
 /// The slider ends at the scene's `maximum`. Where the scene gives none, it ends where it ended when the scene was
 /// opened, whatever the value has become since; only a value typed beyond that moves the end, to what the scene implies
 /// for that value.
-class ParameterRow final : public QWidget {
+class ParameterRow final : public SliderRow {
   Q_OBJECT
 
  public:
@@ -29,8 +23,6 @@ class ParameterRow final : public QWidget {
 
   const std::string& pointer() const { return pointer_; }
   const std::string& name() const { return name_; }
-  ParameterSlider* slider() const { return slider_; }
-  ValueField* field() const { return field_; }
   EffectBar* effectBar() const { return effect_; }
 
   /// Value and bounds as the scene has them now.
@@ -59,12 +51,7 @@ class ParameterRow final : public QWidget {
   std::string name_;  ///< when the row was made
   double& impliedMaximum_;
   base::ParameterSpec spec_;
-  ParameterSlider* slider_;
-  ValueField* field_;
   EffectBar* effect_;
-  QToolButton* reset_;
-  QLabel* low_;
-  QLabel* high_;
 };
 
 }  // namespace pliant::panels

@@ -17,6 +17,7 @@ class ParameterSlider final : public QAbstractSlider {
   /// Values out of bounds stand at the end.
   void setRealValue(double value);
   double realValue() const { return value_; }
+  double realMinimum() const { return minimum_; }
   double realMaximum() const { return maximum_; }
   void setReference(double reference);
   bool isDragging() const { return dragging_; }

@@ -68,8 +68,8 @@ TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidge
     head->addWidget(made);
   };
   button(tr("Measured…"),
-         tr("Import measured values: a table with the columns angle [deg], one of stretch, compression or free travel "
-            "(strains, or in [%]),\nand, if known, error or lower and upper"),
+         tr("Import measured values: a table with the columns angle [deg], the name of a curve, such as stretch [%] "
+            "or bent up [1/m],\nand, if known, error or lower and upper"),
          &TravelPanel::chooseMeasured);
   button(tr("Export…"), tr("Write the plot as PDF, SVG or PNG, or its numbers as CSV"), &TravelPanel::exportPlot);
   plot_ = new plots::PolarPlot;
@@ -166,7 +166,7 @@ void TravelPanel::importMeasured(const QString& file) {
 
 void TravelPanel::chooseMeasured() {
   const QString file = QFileDialog::getOpenFileName(
-      this, tr("Measured values: angle [deg], stretch"), {}, tr("Comma-separated values (*.csv)"));
+      this, tr("Measured values: angle [deg] and the name of a curve"), {}, tr("Comma-separated values (*.csv)"));
   if (file.isEmpty()) return;
   try {
     importMeasured(file);

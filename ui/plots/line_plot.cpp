@@ -77,8 +77,11 @@ void LinePlot::fit() {
   const QCPRange y = plot_->yAxis->range();
   if (chart_.logarithmicY)
     plot_->yAxis->setRange(y.lower / 2, y.upper * 2);
+  else if (chart_.fromZero)
+    plot_->yAxis->setRange(std::min(0.0, y.lower), 1.12 * std::max(y.upper, 0.0));
   else
     plot_->yAxis->scaleRange(1.12);
+  if (chart_.fromZero) plot_->xAxis->scaleRange(1.12);
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

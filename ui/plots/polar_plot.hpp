@@ -64,7 +64,12 @@ class PolarPlot final : public QWidget {
   void paintMeasured(QPainter& painter) const;
   void paintLegend(QPainter& painter) const;
   void paintReadout(QPainter& painter) const;
-  std::vector<std::pair<QString, QColor>> legend() const;
+  struct LegendLine {
+    QString text;
+    QColor color;
+    Qt::PenStyle pen;
+  };
+  std::vector<LegendLine> legend() const;
 
   scene::PolarCurves curves_;
   std::vector<bool> hidden_;

@@ -112,24 +112,30 @@ void PolarPlot::paintCurves(QPainter& painter) const {
     const scene::PolarCurve& curve = curves_.curves[i];
     if (hidden_[i] || curve.angles.empty()) continue;
     QPainterPath path;
-    bool drawing = false, whole = true;
+    std::vector<QPointF> run, dots;  // a value without neighbours is a dot
+    const auto end = [&] {
+      if (run.size() == 1) dots.push_back(run[0]);
+      for (std::size_t k = 0; k < run.size(); ++k) k == 0 ? path.moveTo(run[k]) : path.lineTo(run[k]);
+      run.clear();
+    };
     const auto add = [&](double angle, double value) {
-      if (!std::isfinite(value)) {
-        drawing = whole = false;
-        return;
-      }
-      const QPointF place = scale_.point(angle, curves_.factor * value);
-      drawing ? path.lineTo(place) : path.moveTo(place);
-      drawing = true;
+      if (std::isfinite(value))
+        run.push_back(scale_.point(angle, curves_.factor * value));
+      else
+        end();
     };
     for (const double turn : {0.0, pi})
       for (std::size_t k = 0; k < curve.angles.size() && (turn == 0 || curve.halfTurn); ++k)
         add(curve.angles[k] + turn, curve.values[k]);
     add(curve.angles.front(), curve.values.front());
+    end();
     const QColor color = curveColor(static_cast<int>(i));
     painter.setPen(QPen(color, 2.2, curve.dashed ? Qt::DashLine : Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(path);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color);
+    for (const QPointF& dot : dots) painter.drawEllipse(dot, 3, 3);
   }
 }
 
@@ -151,17 +157,18 @@ void PolarPlot::paintMeasured(QPainter& painter) const {
     }
 }
 
-std::vector<std::pair<QString, QColor>> PolarPlot::legend() const {
-  std::vector<std::pair<QString, QColor>> lines;
+std::vector<PolarPlot::LegendLine> PolarPlot::legend() const {
+  std::vector<LegendLine> lines;
   bool anyMeasured = false;
   for (std::size_t i = 0; i < curves_.curves.size(); ++i) {
     if (hidden_[i]) continue;
     const QString name = QString::fromStdString(curves_.curves[i].name);
-    lines.emplace_back(name, curveColor(static_cast<int>(i)));
+    lines.push_back({name, curveColor(static_cast<int>(i)), curves_.curves[i].dashed ? Qt::DashLine : Qt::SolidLine});
     anyMeasured = anyMeasured || std::any_of(measured_.begin(), measured_.end(),
                                              [&](const MeasuredTable& table) { return table.quantity == name; });
   }
-  if (anyMeasured) lines.emplace_back(tr("measured"), measuredColor(palette()));
+  if (anyMeasured) lines.push_back({tr("measured"), measuredColor(palette()), Qt::SolidLine});
+  if (!curves_.note.empty()) lines.push_back({QString::fromStdString(curves_.note), {}, Qt::NoPen});
   return lines;
 }
 
@@ -170,8 +177,8 @@ void PolarPlot::paintLegend(QPainter& painter) const {
   const double line = metrics.height() + 3;
   const auto lines = legend();
   double y = height() - 6 - line * (static_cast<double>(lines.size()) - 0.5);
-  for (const auto& [text, color] : lines) {
-    painter.setPen(QPen(color, 2.2));
+  for (const auto& [text, color, pen] : lines) {
+    painter.setPen(QPen(color, 2.2, pen));
     painter.drawLine(QPointF(12, y), QPointF(30, y));
     painter.setPen(plotStyle(palette()).text);
     painter.drawText(QRectF(38, y - line / 2, width() - 46, line), Qt::AlignLeft | Qt::AlignVCenter, text);

@@ -29,6 +29,15 @@ Image drawBoundary(const BoundaryScenery& scenery, const PictureOptions& options
   return drawView(view, target, options);
 }
 
+Image drawPatch(const std::shared_ptr<const PatchConfiguration>& configuration, const PictureOptions& options) {
+  OffscreenTarget target;
+  target.setSize(options.width, options.height);
+  PatchView view;
+  view.attach(target.window());
+  view.setConfiguration(configuration);
+  return drawView(view, target, options);
+}
+
 Image drawConfiguration(const std::shared_ptr<const CellConfiguration>& configuration, const PictureOptions& options) {
   OffscreenTarget target;
   target.setSize(options.width, options.height);

@@ -174,7 +174,10 @@ struct BoundaryView::Parts {
     if (any) bounds.add(Points::Zero(3, 1));
     box.setVisible(any);
     if (any) {
-      box.setRange(bounds.low, bounds.high, {"E_x [%]", "E_y [%]", "E_xy [%]"}, 100);
+      const scene::BoundarySpace& space = (first.isSeen() ? first : compared).surface->space;
+      std::array<std::string, 3> names;
+      for (std::size_t i = 0; i < 3; ++i) names[i] = space.axes[i] + " [" + space.unit + "]";
+      box.setRange(bounds.low, bounds.high, names, space.factor);
       const Eigen::Vector3d around = labelRoom * Eigen::Vector3d::Constant((box.high() - box.low()).maxCoeff());
       Bounds reach;
       reach.low = box.low() - around;
@@ -266,8 +269,10 @@ struct BoundaryView::Parts {
       if (!(least <= most)) least = most = 0;
       if (!(most > least)) most = least + std::max(1e-12, 1e-3 * std::abs(least));
       setViridis(table, least, most, stale);
-      const bool strain = shown->kind == BoundaryQuantity::Kind::strain;
-      stage.legend().setQuantity(shown->label, strain ? Legend::Scale::strain : Legend::Scale::plain, "");
+      const bool coordinate = shown->kind == BoundaryQuantity::Kind::coordinate;
+      const std::string& unit = first.surface->space.unit;
+      stage.legend().setQuantity(shown->label, coordinate && unit == "%" ? Legend::Scale::strain : Legend::Scale::plain,
+                                 coordinate ? unit : "");
       stage.legend().setRange(least, most);
     }
     stage.setLegendVisible(shown != nullptr);

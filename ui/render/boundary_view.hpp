@@ -16,12 +16,12 @@ struct BoundaryStyle {
   bool shadows = true;           ///< its projections on the walls
   bool states = false;           ///< a dot at each limit
   std::optional<int> sliceAxis;  ///< cut by the plane where this coordinate is `slicePosition`
-  double slicePosition = 0;      ///< Green strain
+  double slicePosition = 0;      ///< coordinate
 };
 
-/// Strain-space boundaries as in thesis Fig. 4.4: the surface of limits in the coordinates E_x, E_y, E_xy in a box with
-/// scales in per cent, its shadows on three walls, the rest state, a slice, and another boundary over it. Where no
-/// limit is known yet the surface is grey.
+/// Boundaries as in thesis Fig. 4.4: the surface of limits in its coordinates, of Green strain or of curvature, in a
+/// box with scales, its shadows on three walls, the rest state, a slice, and another boundary over it. Where no limit
+/// is known yet the surface is grey.
 class BoundaryView final : public View {
  public:
   BoundaryView();

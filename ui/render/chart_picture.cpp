@@ -114,6 +114,10 @@ void putTicksAtValues(vtkAxis* axis, const scene::ResultChart& chart) {
 
 void drawCharts(const std::vector<scene::ResultChart>& charts, int width, int height, Theme theme,
                 const std::filesystem::path& file) {
+  writePng(chartImage(charts, width, height, theme), file);
+}
+
+Image chartImage(const std::vector<scene::ResultChart>& charts, int width, int height, Theme theme) {
   const Palette& colors = palette(theme);
   OffscreenTarget target;
   target.setSize(width, height);
@@ -149,7 +153,7 @@ void drawCharts(const std::vector<scene::ResultChart>& charts, int width, int he
     target.render(image);
     target.window()->RemoveRenderer(renderer);
   }
-  writePng(image, file);
+  return image;
 }
 
 }  // namespace pliant::render

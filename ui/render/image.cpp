@@ -11,6 +11,17 @@
 
 namespace pliant::render {
 
+Image beside(const Image& left, const Image& right) {
+  Image all{left.width + right.width, right.height, {}};
+  all.pixels.reserve(4 * static_cast<std::size_t>(all.width) * all.height);
+  for (int y = 0; y < all.height; ++y)
+    for (const Image* part : {&left, &right}) {
+      const auto row = part->pixels.begin() + std::ptrdiff_t{4} * part->width * y;
+      all.pixels.insert(all.pixels.end(), row, row + std::ptrdiff_t{4} * part->width);
+    }
+  return all;
+}
+
 std::string pngOf(const Image& image) {
   vtkNew<vtkImageData> pixels;
   pixels->SetDimensions(image.width, image.height, 1);

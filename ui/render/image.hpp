@@ -17,6 +17,9 @@ struct Image {
   std::vector<std::uint8_t> pixels;  ///< 4 * width * height
 };
 
+/// Two images of one height in one; the first may be empty.
+Image beside(const Image& left, const Image& right);
+
 /// The bytes of a PNG file.
 std::string pngOf(const Image& image);
 

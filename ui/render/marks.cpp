@@ -16,6 +16,11 @@ Points columnsOf(const std::vector<Eigen::Vector3d>& places) {
   return points;
 }
 
+void setDepth(vtkActor* actor, const std::string& depth) {
+  actor->GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Light::Impl", true, "//VTK::Light::Impl\n  gl_FragDepth = " + depth + ";\n", false);
+}
+
 std::vector<int> numbersUpTo(std::size_t count) {
   std::vector<int> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -24,10 +29,10 @@ std::vector<int> numbersUpTo(std::size_t count) {
 
 }  // namespace
 
-void seeThrough(vtkActor* actor, double share) {
-  actor->GetShaderProperty()->AddFragmentShaderReplacement(
-      "//VTK::Light::Impl", true,
-      "//VTK::Light::Impl\n  gl_FragDepth = " + std::to_string(share) + " * gl_FragCoord.z;\n", false);
+void seeThrough(vtkActor* actor, double share) { setDepth(actor, std::to_string(share) + " * gl_FragCoord.z"); }
+
+void seeBehind(vtkActor* actor, double share) {
+  setDepth(actor, "1.0 - " + std::to_string(share) + " * (1.0 - gl_FragCoord.z)");
 }
 
 void Balls::show(const std::vector<Eigen::Vector3d>& places, double radius) {

@@ -8,6 +8,10 @@ namespace pliant::render {
 /// in front.
 void seeThrough(vtkActor* actor, double share);
 
+/// Draws an actor as if it were farther from the eye, so that it hides nothing else: `share` of its distance from the
+/// far end of the depth.
+void seeBehind(vtkActor* actor, double share);
+
 /// Balls of one size at some places.
 class Balls {
  public:

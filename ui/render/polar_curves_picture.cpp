@@ -58,7 +58,7 @@ class CurvesPainter {
       for (const double value : curve.values)
         if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
     scale_.fit(plot.factor * low, plot.factor * high);
-    const double foot = (static_cast<double>(plot.curves.size()) + 1) * lineHeight * ratio;
+    const double foot = (legendLines() + 1) * lineHeight * ratio;
     const double tall = place.height - headRoom * ratio - foot;
     centre_ = {place.left + 0.5 * place.width, place.bottom + foot + 0.5 * tall};
     radius_ = std::max(8.0, std::min(0.5 * place.width - sideRoom * ratio, 0.5 * tall - 0.5 * lineHeight * ratio));
@@ -85,18 +85,24 @@ class CurvesPainter {
     }
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) paintCurve(plot_.curves[i], colorOf(i));
     paintRingLabels();
-    double y = place_.bottom + (static_cast<double>(plot_.curves.size()) - 0.2) * lineHeight * ratio_;
+    double y = place_.bottom + (legendLines() - 0.2) * lineHeight * ratio_;
     const double left = place_.left + 0.5 * place_.width - 60 * ratio_;
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) {
       pen(colorOf(i), 2.4);
+      painter_.GetPen()->SetLineType(plot_.curves[i].dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
       painter_.DrawLine(static_cast<float>(left), static_cast<float>(y), static_cast<float>(left + 22 * ratio_),
                         static_cast<float>(y));
       paintText(painter_, {left + 30 * ratio_, y}, {0, 0.5}, plot_.curves[i].name, labelSize * ratio_, colors_.text);
       y -= lineHeight * ratio_;
     }
+    painter_.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    paintText(painter_, {left + 30 * ratio_, y}, {0, 0.5}, plot_.note, labelSize * ratio_,
+              mixed(colors_.background, colors_.text, 0.75));
   }
 
  private:
+  double legendLines() const { return static_cast<double>(plot_.curves.size()) + (plot_.note.empty() ? 0 : 1); }
+
   Color colorOf(std::size_t curve) const {
     const std::array<Color, 4> all{
         colors_.mass, mixed(colors_.driven, colors_.text, 0.25), colors_.trajectory, colors_.prediction};
@@ -115,9 +121,10 @@ class CurvesPainter {
   void paintCurve(const scene::PolarCurve& curve, const Color& color) {
     pen(color, 2.4);
     painter_.GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
-    std::vector<float> points;
+    std::vector<float> points, dots;  // a value without neighbours is a dot
     const auto end = [&] {
       if (points.size() > 2) painter_.DrawPoly(points.data(), static_cast<int>(points.size() / 2));
+      if (points.size() == 2) dots.insert(dots.end(), points.begin(), points.end());
       points.clear();
     };
     const auto put = [&](double angle, double value) {
@@ -132,6 +139,9 @@ class CurvesPainter {
     if (!curve.angles.empty()) put(curve.angles.front(), curve.values.front());
     end();
     painter_.GetPen()->SetLineType(vtkPen::SOLID_LINE);
+    if (dots.empty()) return;
+    pen(color, 6);
+    painter_.DrawPoints(dots.data(), static_cast<int>(dots.size() / 2));
   }
 
   void paintRingLabels() {

@@ -20,8 +20,7 @@ namespace {
 }  // namespace
 
 QString boundaryFilters() {
-  return QStringLiteral(
-      "Picture (*.png);;Surface in Green strain (*.ply *.stl *.obj *.gltf *.glb *.3mf);;Limits (*.csv)");
+  return QStringLiteral("Picture (*.png);;Surface (*.ply *.stl *.obj *.gltf *.glb *.3mf);;Limits (*.csv)");
 }
 
 void writeBoundary(const QString& file, panels::BoundaryPanel& boundary) {
@@ -31,10 +30,9 @@ void writeBoundary(const QString& file, panels::BoundaryPanel& boundary) {
   if (suffix == QLatin1String("png") || suffix == QLatin1String("csv")) {
     QSaveFile out(file);
     const bool opened = out.open(QIODevice::WriteOnly);
-    const bool written =
-        opened && (suffix == QLatin1String("png")
-                       ? boundary.viewport().grabImage().save(&out, "PNG")
-                       : out.write(QByteArray::fromStdString(scene::boundaryTable(boundary.result()->boundary))) >= 0);
+    const bool written = opened && (suffix == QLatin1String("png")
+                                        ? boundary.viewport().grabImage().save(&out, "PNG")
+                                        : out.write(QByteArray::fromStdString(boundary.result()->table())) >= 0);
     if (!written || !out.commit()) refuse(file, QStringLiteral("The file cannot be written."));
     return;
   }

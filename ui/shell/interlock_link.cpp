@@ -3,10 +3,12 @@
 #include <QPointer>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/interlock/holding_contacts.hpp"
 #include "ui/panels/boundary_panel.hpp"
 #include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/size_panel.hpp"
 #include "ui/panels/travel_panel.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -76,19 +78,21 @@ bool hasInterlock(const document::Document& document) {
 }
 
 InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quick, viewport::Viewport& viewport,
-                             panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::CellTestPanel& tests,
-                             QObject* parent)
+                             panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::SizePanel& sizes,
+                             panels::CellTestPanel& tests, QObject* parent)
     : QObject(parent),
       document_(document),
       quick_(quick),
       viewport_(viewport),
       boundary_(boundary),
       travel_(travel),
+      sizes_(sizes),
       tests_(tests),
-      view_(std::make_shared<render::LimitView>()) {
+      view_(std::make_shared<render::LimitView>()),
+      patchView_(std::make_shared<render::PatchView>()) {
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     grows_.clear();
-    framed_ = false;
+    framed_ = patchFramed_ = false;
     leave();
   });
   connect(&document_, &document::Document::sceneEdited, this, &InterlockLink::refreshStale);
@@ -97,17 +101,19 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
   connect(&tests_, &panels::CellTestPanel::studyChosen, this, &InterlockLink::showTest);
 }
 
-bool InterlockLink::isShown() const { return viewport_.guest() == view_; }
+bool InterlockLink::isShown() const { return viewport_.guest() == view_ || viewport_.guest() == patchView_; }
 
 void InterlockLink::follow(const std::string& name) {
   const document::StudyState* study = document_.study(name);
   if (!study || !study->result || study->result->kind() != "interlock") return;
   const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
-  if (study->type == "cell_test" && ended) {
+  const bool plotted = panels::TravelPanel::shows(study->type) || study->type == panels::SizePanel::shownType;
+  if (panels::CellTestPanel::shows(study->type) && ended) {
     if (!study->stale) showTest(name);
-  } else if (grows_ != name && (!ended || panels::TravelPanel::shows(study->type))) {
-    if (study->type == "stretch_boundary") boundary_.setStudy(name);
+  } else if (grows_ != name && (!ended || plotted)) {
+    if (panels::BoundaryPanel::shows(study->type)) boundary_.setStudy(name);
     if (panels::TravelPanel::shows(study->type)) travel_.setStudy(name);
+    if (study->type == panels::SizePanel::shownType) sizes_.setStudy(name);
     Q_EMIT resultGrows(study->type);
   }
   if (!ended) grows_ = name;
@@ -118,7 +124,17 @@ void InterlockLink::follow(const std::string& name) {
 void InterlockLink::showTest(const std::string& name) {
   quick_.abandonTopic(contactTopic);
   const document::StudyState* study = document_.study(name);
-  const auto result = study ? std::dynamic_pointer_cast<const scene::CellTestResult>(study->result) : nullptr;
+  const scene::Result* found = study ? study->result.get() : nullptr;
+  const auto showPatch = [&](const auto& result) {
+    const auto configuration = render::patchConfiguration(result);
+    if (!configuration) return leave();
+    study_ = name;
+    tests_.setShown(name);
+    show(configuration, QString::fromStdString(render::patchCaption(result)));
+  };
+  if (const auto* bent = dynamic_cast<const scene::BendingTestResult*>(found)) return showPatch(*bent);
+  if (const auto* hanging = dynamic_cast<const scene::GravityBendingResult*>(found)) return showPatch(*hanging);
+  const auto* result = dynamic_cast<const scene::CellTestResult*>(found);
   if (!result || result->limit.equilibrium.state.rotations.empty()) {
     leave();
     return;
@@ -133,19 +149,41 @@ void InterlockLink::showTest(const std::string& name) {
   show(configuration, testCaption(*result, configuration->contacts.size()));
 }
 
+template <class Find>
+void InterlockLink::showLater(Find find) {
+  jobs::Job job;
+  job.topic = contactTopic;
+  job.work = [link = QPointer<InterlockLink>(this), find = std::move(find)](
+                 base::ExecutionContext&, const jobs::Publish&) -> jobs::Delivery {
+    return [link, found = find()] {
+      InterlockLink* self = link.data();
+      if (!self) return;
+      self->tests_.setShown(std::nullopt);
+      self->show(found.first, found.second);
+    };
+  };
+  quick_.submit(std::move(job));
+}
+
 void InterlockLink::showState(int state) {
-  const auto result = boundary_.result();
-  if (state < 0 || !result || !boundary_.surface()) {
+  const auto limits = boundary_.result();
+  if (state < 0 || !limits || !boundary_.surface()) {
     if (isShown() && study_ == boundary_.study()) leave();
     return;
   }
   study_ = boundary_.study();
+  if (const auto bent = std::dynamic_pointer_cast<const scene::BendingBoundaryResult>(limits)) {
+    showLater([bent, state] {
+      return std::pair(
+          render::patchConfiguration(*bent, state), QString::fromStdString(render::patchCaption(*bent, state)));
+    });
+    return;
+  }
+  const auto result = std::dynamic_pointer_cast<const scene::StretchBoundaryResult>(limits);
+  if (!result) return;
   const Eigen::Vector3d strain = boundary_.surface()->points.col(state);
   const QString name = QStringLiteral("%1,  limit %2").arg(QString::fromStdString(study_)).arg(state);
-  jobs::Job job;
-  job.topic = contactTopic;
-  job.work = [link = QPointer<InterlockLink>(this), result, state, strain, name](
-                 base::ExecutionContext&, const jobs::Publish&) -> jobs::Delivery {
+  showLater([result, state, strain, name] {
     const interlock::BoundaryState& limit = result->boundary.states.at(static_cast<std::size_t>(state));
     const double radius = result->cell->smallestRadius();
     const interlock::EquilibriumOptions defaults;
@@ -156,26 +194,35 @@ void InterlockLink::showState(int state) {
     configuration->state = limit.cell;
     configuration->contacts = interlock::distinctContacts(
         interlock::holdingContacts(interlock::CellContact(*result->cell), limit.cell, range), apart * radius);
-    QString caption = name + '\n' + panels::strainText(strain) + '\n' +
-                      held(configuration->contacts.size(), limit.meanGap / radius, limit.remaining);
-    return [link, configuration, caption] {
-      InterlockLink* self = link.data();
-      if (!self) return;
-      self->tests_.setShown(std::nullopt);
-      self->show(configuration, caption);
-    };
-  };
-  quick_.submit(std::move(job));
+    const QString caption = name + '\n' + panels::strainText(strain) + '\n' +
+                            held(configuration->contacts.size(), limit.meanGap / radius, limit.remaining);
+    return std::pair(std::shared_ptr<const render::CellConfiguration>(configuration), caption);
+  });
 }
 
 void InterlockLink::show(std::shared_ptr<const render::CellConfiguration> configuration, const QString& caption) {
   view_->setConfiguration(std::move(configuration));
-  view_->setCaption((document_.title() + '\n' + caption).toStdString());
-  viewport_.setGuest(view_);
-  if (!framed_) viewport_.setAxisView(render::AxisView::isometric);
-  framed_ = true;
-  refreshStale();
+  showGuest(view_, caption);
+  if (!std::exchange(framed_, true)) viewport_.setAxisView(render::AxisView::isometric);
   viewport_.redrawGuest(true);
+}
+
+void InterlockLink::show(std::shared_ptr<const render::PatchConfiguration> configuration, const QString& caption) {
+  const auto before = patchView_->configuration();
+  const bool another = !before || before->patch != configuration->patch || before->gravity != configuration->gravity;
+  patchView_->setConfiguration(std::move(configuration));
+  showGuest(patchView_, caption);
+  if (!std::exchange(patchFramed_, true))
+    viewport_.setAxisView(render::AxisView::isometric);
+  else if (another)
+    viewport_.fit();
+  viewport_.redrawGuest(true);
+}
+
+void InterlockLink::showGuest(const std::shared_ptr<render::View>& view, const QString& caption) {
+  view->setCaption((document_.title() + '\n' + caption).toStdString());
+  viewport_.setGuest(view);
+  refreshStale();
 }
 
 void InterlockLink::leave() {
@@ -193,6 +240,7 @@ void InterlockLink::refreshStale() {
     return;
   }
   view_->setStale(study->stale);
+  patchView_->setStale(study->stale);
   viewport_.redrawGuest();
 }
 

@@ -7,10 +7,12 @@
 #include "ui/document/document.hpp"
 #include "ui/jobs/job_runner.hpp"
 #include "ui/render/limit_view.hpp"
+#include "ui/render/patch_view.hpp"
 
 namespace pliant::panels {
 class BoundaryPanel;
 class CellTestPanel;
+class SizePanel;
 class TravelPanel;
 }  // namespace pliant::panels
 
@@ -20,18 +22,20 @@ class Viewport;
 
 namespace pliant::shell {
 
-/// Shows the elements at limits of interlocking materials in the viewport: the limit of a boundary that was clicked,
-/// the direction that was chosen or has just been computed. Brings what runs to the panel that shows it.
+/// Shows the elements at limits of interlocking materials in the viewport, of cells and of patches: the limit of a
+/// boundary that was clicked, the test that was chosen or has just been computed. Brings what runs to the panel that
+/// shows it.
 class InterlockLink final : public QObject {
   Q_OBJECT
 
  public:
   /// Finds contacts in `quick`.
   InterlockLink(document::Document& document, jobs::JobRunner& quick, viewport::Viewport& viewport,
-                panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::CellTestPanel& tests,
-                QObject* parent = nullptr);
+                panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::SizePanel& sizes,
+                panels::CellTestPanel& tests, QObject* parent = nullptr);
 
-  /// The configuration at the limit of a `cell_test`; empty: the material at rest.
+  /// The configuration at the limit of a `cell_test` or `bending_test`, or at rest of a `gravity_bending`; empty: the
+  /// material at rest.
   void showTest(const std::string& study);
   /// The configuration at a limit of the boundary on show; -1: the material at rest.
   void showState(int state);
@@ -41,12 +45,17 @@ class InterlockLink final : public QObject {
   bool isShown() const;
 
  Q_SIGNALS:
-  /// A study of this type begins to show something: "stretch_boundary", "free_travel", "cell_test".
+  /// A study of this type begins to show something.
   void resultGrows(const std::string& type);
 
  private:
   void follow(const std::string& name);
   void show(std::shared_ptr<const render::CellConfiguration> configuration, const QString& caption);
+  void show(std::shared_ptr<const render::PatchConfiguration> configuration, const QString& caption);
+  void showGuest(const std::shared_ptr<render::View>& view, const QString& caption);
+  /// Finds a configuration and its caption in the background, then shows it.
+  template <class Find>
+  void showLater(Find find);
   void refreshStale();
 
   document::Document& document_;
@@ -54,11 +63,13 @@ class InterlockLink final : public QObject {
   viewport::Viewport& viewport_;
   panels::BoundaryPanel& boundary_;
   panels::TravelPanel& travel_;
+  panels::SizePanel& sizes_;
   panels::CellTestPanel& tests_;
   std::shared_ptr<render::LimitView> view_;
-  std::string study_;    ///< whose limit is shown, or asked for
-  std::string grows_;    ///< study that was brought to its panel while it ran
-  bool framed_ = false;  ///< the view has been fitted to this material
+  std::shared_ptr<render::PatchView> patchView_;
+  std::string study_;                          ///< whose limit is shown, or asked for
+  std::string grows_;                          ///< study that was brought to its panel while it ran
+  bool framed_ = false, patchFramed_ = false;  ///< the views have been turned once for this scene
 };
 
 /// Whether a study is one of an interlocking cell.

@@ -159,6 +159,7 @@ void MainWindow::buildDocks() {
   makeInterlockDocks();
   plot->raise();
   makeCellDock();
+  makePrintDock();
 }
 
 void MainWindow::buildStatusBar() {

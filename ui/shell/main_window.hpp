@@ -29,8 +29,10 @@ class MessageBar;
 class ModesPanel;
 class MotionPanel;
 class ParameterPanel;
+class PrintPanel;
 class ResponsePanel;
 class SceneTree;
+class SizePanel;
 class TravelPanel;
 }  // namespace pliant::panels
 
@@ -81,12 +83,16 @@ class MainWindow final : public QMainWindow {
   CellBar& cellBar() { return *cellBar_; }
   panels::BoundaryPanel& boundary() { return *boundary_; }
   panels::TravelPanel& travel() { return *travel_; }
+  panels::PrintPanel& print() { return *print_; }
+  panels::SizePanel& sizes() { return *sizes_; }
   panels::CellTestPanel& cellTests() { return *cellTests_; }
 
   /// See frameExport; a message says what came of it.
   void exportFramesTo(const QString& file);
   /// See writeBoundary; a message says what came of it.
   void exportBoundaryTo(const QString& file);
+  /// What the panel for printing says, in the background; a message says what came of it.
+  void exportPatchTo(const QString& file);
 
   /// Bodies to be made, with the sizes of the dialog; a message and the dialog say what came of it.
   void exportPartsTo(const QString& file);
@@ -110,6 +116,7 @@ class MainWindow final : public QMainWindow {
   void makeClothActions();
   void makeCellActions();
   void makeCellDock();
+  void makePrintDock();
   void makeCellViews();
   void showElements(bool shown);
   void chooseFamily(const std::string& type, int cell);
@@ -188,8 +195,11 @@ class MainWindow final : public QMainWindow {
   panels::CellPanel* cellPanel_ = nullptr;
   QDockWidget* cellDock_ = nullptr;
   CellBar* cellBar_ = nullptr;
+  panels::PrintPanel* print_ = nullptr;
+  QDockWidget* printDock_ = nullptr;  ///< where pieces for printers are chosen
   panels::BoundaryPanel* boundary_ = nullptr;
   panels::TravelPanel* travel_ = nullptr;
+  panels::SizePanel* sizes_ = nullptr;
   panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   MakeDialog* make_ = nullptr;

@@ -160,7 +160,8 @@ void MainWindow::makeMenus() {
                                          "view.theme.system",
                                          "view.theme.light",
                                          "view.theme.dark"});
-  fill(menuBar()->addMenu(tr("&Model")), {"model.reset", "model.nextProbe", "-", "model.elements", "cell.reset"});
+  fill(menuBar()->addMenu(tr("&Model")),
+       {"model.reset", "model.nextProbe", "-", "model.elements", "model.print", "cell.reset"});
   QMenu* study = menuBar()->addMenu(tr("&Study"));
   connect(study, &QMenu::aboutToShow, this, [this, study] { fillStudyMenu(study); });
   fillStudyMenu(study);
@@ -248,7 +249,7 @@ void MainWindow::refreshActions() {
   enable("file.exportFrames", session_.shown().has_value() || viewport_->showsCloth());
   enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
   actions_.find(QStringLiteral("view.drapes"))->setChecked(pages_->currentIndex() == 2);
-  enable("cell.reset", showsCells(document_));
+  for (const char* id : {"cell.reset", "model.print"}) enable(id, showsCells(document_));
   enable("live.open", liveBar_ && !liveBar_->study().empty());
   for (const char* id : {"live.step", "live.reset", "live.record"}) enable(id, live_.isOpen());
   enable("study.run", open && !document_.studies().empty() && !busy && !editing);

@@ -85,7 +85,7 @@ void MainWindow::chooseFamily(const std::string& type, int cell) {
 /// Nothing of an interlocking material vibrates: it has its own panel in the place of the parameters.
 void MainWindow::fitCellDocks() {
   const bool cells = showsCells(document_);
-  cellDock_->setVisible(cells);
+  for (QDockWidget* dock : {cellDock_, printDock_}) dock->setVisible(cells);
   if (!cells) return;
   for (QDockWidget* dock : harmonicDocks_) dock->hide();
   // The material is seen as large as possible; the status bar's button brings the messages.

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "ui/panels/boundary_panel.hpp"
 #include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/size_panel.hpp"
 #include "ui/panels/travel_panel.hpp"
 #include "ui/shell/boundary_export.hpp"
 #include "ui/shell/interlock_link.hpp"
@@ -16,7 +17,7 @@ namespace pliant::shell {
 
 namespace {
 
-constexpr double heightShare = 0.54;  ///< of the window, that a boundary to be turned needs
+constexpr double heightShare = 0.44;  ///< of the window, that a boundary to be turned needs
 constexpr int plotHeight = 312;       ///< of the other docks at the bottom
 
 }  // namespace
@@ -24,6 +25,7 @@ constexpr int plotHeight = 312;       ///< of the other docks at the bottom
 void MainWindow::makeInterlockDocks() {
   boundary_ = new panels::BoundaryPanel(document_, quickJobs_);
   travel_ = new panels::TravelPanel(document_);
+  sizes_ = new panels::SizePanel(document_);
   cellTests_ = new panels::CellTestPanel(document_);
   const auto add = [this](const QString& title, const char* name, QWidget* widget) {
     auto* dock = new QDockWidget(title, this);
@@ -36,20 +38,26 @@ void MainWindow::makeInterlockDocks() {
   };
   add(tr("Boundary"), "boundary", boundary_);
   add(tr("Directions"), "travel", travel_);
+  add(tr("Patch size"), "sizes", sizes_);
   add(tr("Limits"), "cell_tests", cellTests_);
 }
 
 void MainWindow::connectInterlock() {
-  auto* link = new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *cellTests_, this);
+  auto* link = new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *sizes_, *cellTests_, this);
   connect(actions_.find(QStringLiteral("cell.reset")), &QAction::triggered, link, &InterlockLink::leave);
   const auto run = [this](const std::string& study) {
     if (!study.empty()) session_.run({study});
   };
   connect(boundary_, &panels::BoundaryPanel::runRequested, this, run);
   connect(travel_, &panels::TravelPanel::runRequested, this, run);
+  connect(sizes_, &panels::SizePanel::runRequested, this, run);
   connect(cellTests_, &panels::CellTestPanel::runRequested, this, run);
   connect(link, &InterlockLink::resultGrows, this, [this](const std::string& type) {
-    interlockDocks_[type == "stretch_boundary" ? 0 : panels::TravelPanel::shows(type) ? 1 : 2]->raise();
+    interlockDocks_[panels::BoundaryPanel::shows(type)     ? 0
+                    : panels::TravelPanel::shows(type)     ? 1
+                    : type == panels::SizePanel::shownType ? 2
+                                                           : 3]
+        ->raise();
   });
   connect(boundary_, &panels::BoundaryPanel::exportRequested, this, [this] {
     const QString name = QFileInfo(document_.file()).completeBaseName() + QStringLiteral("_boundary.png");

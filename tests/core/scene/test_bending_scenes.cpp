@@ -107,8 +107,8 @@ class TestBendingScenes : public QObject {
       for (const scene::PolarCurve& curve : all.curves) QCOMPARE(curve.angles[i], limits.up.angle);
       QCOMPARE(all.curves[0].values[i], limits.up.curvature);
       QCOMPARE(all.curves[1].values[i], limits.up.orthogonal);
-      QVERIFY(i == 1 ? std::isnan(all.curves[2].values[i]) : all.curves[2].values[i] == limits.down.curvature);
-      QVERIFY(i == 1 ? std::isnan(all.curves[3].values[i]) : all.curves[3].values[i] == limits.down.orthogonal);
+      QVERIFY(i == 1 ? std::isnan(all.curves[2].values[i]) : all.curves[2].values[i] == -limits.down.curvature);
+      QVERIFY(i == 1 ? std::isnan(all.curves[3].values[i]) : all.curves[3].values[i] == -limits.down.orthogonal);
     }
   }
 

@@ -77,7 +77,7 @@ class TestBoundarySurface : public QObject {
   }
 
   void aSurfaceHasAllOfItsLimits() {
-    const scene::BoundarySurface surface = scene::boundarySurface(*boundary());
+    const scene::BoundarySurface surface = scene::boundarySurface(*boundary(), "boundary");
     QCOMPARE(surface.points.cols(), 42);
     QCOMPARE(surface.knownCount(), 42);
     QCOMPARE(surface.triangles.size(), std::size_t(80));
@@ -104,7 +104,7 @@ class TestBoundarySurface : public QObject {
     QVERIFY(seen.back() == result);
     int before = 0, halfKnown = 0;
     for (const auto& each : seen) {
-      const scene::BoundarySurface surface = scene::boundarySurface(*each);
+      const scene::BoundarySurface surface = scene::boundarySurface(*each, "");
       QVERIFY(surface.knownCount() >= before);
       before = surface.knownCount();
       halfKnown += before > 0 && before < 42;
@@ -126,18 +126,18 @@ class TestBoundarySurface : public QObject {
     base::ExecutionContext context;
     const auto stopped = studyOf("boundary")->run(context, [&](std::shared_ptr<const scene::Result> partial) {
       const auto& known = dynamic_cast<const scene::StretchBoundaryResult&>(*partial);
-      if (scene::boundarySurface(known).knownCount() >= 8) context.requestCancel();
+      if (scene::boundarySurface(known, "").knownCount() >= 8) context.requestCancel();
     });
     QVERIFY(stopped->termination == base::TerminationType::cancelled);
     const auto half = std::dynamic_pointer_cast<const scene::StretchBoundaryResult>(stopped);
-    const int kept = scene::boundarySurface(*half).knownCount();
+    const int kept = scene::boundarySurface(*half, "").knownCount();
     QVERIFY(kept >= 8 && kept < 42);
     const auto study = studyOf("boundary");
     dynamic_cast<scene::ResumableStudy&>(*study).goOnFrom(*half);
     base::ExecutionContext again;
     const auto result = std::dynamic_pointer_cast<const scene::StretchBoundaryResult>(study->run(again));
     QVERIFY(result->recalled >= kept);
-    QVERIFY(scene::boundaryTable(result->boundary) == scene::boundaryTable(boundary()->boundary));
+    QVERIFY(result->table() == boundary()->table());
     // Nothing is taken from what is whole, or from other studies.
     const auto whole = boundary();
     const auto test = resultOf<scene::CellTestResult>("stretch");
@@ -156,7 +156,7 @@ class TestBoundarySurface : public QObject {
     QTemporaryDir folder;
     const auto place = std::filesystem::path(folder.filePath("boundary").toStdString());
     boundary()->write(place);
-    const scene::BoundarySurface written = scene::boundarySurface(*boundary());
+    const scene::BoundarySurface written = scene::boundarySurface(*boundary(), "boundary");
     for (const auto& from : {place, place / "boundary.ply"}) {
       const scene::BoundarySurface read = scene::readBoundarySurface(from);
       QVERIFY((read.points - written.points).cwiseAbs().maxCoeff() < 1e-15);

@@ -154,6 +154,28 @@ class TestCellPanel : public QObject {
     QCOMPARE(document_->undoStack().count(), 0);
   }
 
+  /// What is typed beyond an end of a slider moves that end, to a round number; another scene has ends of its own.
+  void typedValuesWidenTheSlider() {
+    document_->adopt(sceneOf("ring_net"), {});
+    const auto slider = [this](const char* key) { return panel_->row(key)->slider(); };
+    const auto near = [](double value, double wanted) { return std::abs(value - wanted) < 1e-9; };
+    QVERIFY(near(slider("spacing")->realMaximum(), 24e-3));
+    type("spacing", "23 mm");
+    QTRY_VERIFY_WITH_TIMEOUT(near(slider("spacing")->realValue(), 23e-3), patience);
+    QVERIFY(near(slider("spacing")->realMaximum(), 24e-3));
+    type("spacing", "30 mm");
+    QTRY_VERIFY_WITH_TIMEOUT(near(slider("spacing")->realValue(), 30e-3), patience);
+    QVERIFY(near(slider("spacing")->realMaximum(), 40e-3));
+    const double low = slider("wire_radius")->realMinimum();
+    QVERIFY(low > 0.02e-3);
+    type("wire_radius", "0.02 mm");
+    QTRY_VERIFY_WITH_TIMEOUT(near(slider("wire_radius")->realValue(), 0.02e-3), patience);
+    QVERIFY(near(slider("wire_radius")->realMinimum(), 0.01e-3));
+    document_->adopt(sceneOf("ring_net"), {});
+    QVERIFY(near(slider("spacing")->realMaximum(), 24e-3));
+    QVERIFY(near(slider("wire_radius")->realMinimum(), low));
+  }
+
   void theSupercellIsSetToo() {
     document_->adopt(sceneOf("threefold"), {});
     const auto counts = panel_->findChildren<QSpinBox*>();

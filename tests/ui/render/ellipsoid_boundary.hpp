@@ -18,7 +18,8 @@ inline std::shared_ptr<scene::BoundarySurface> ellipsoidBoundary(const Eigen::Ve
   surface->points.resize(3, count);
   surface->triangles = sphere.triangles;
   surface->known.assign(sphere.directions.size(), true);
-  scene::BoundaryQuantity distance{"distance", "distance from\nthe middle", scene::BoundaryQuantity::Kind::strain, {}};
+  scene::BoundaryQuantity distance{
+      "distance", "distance from\nthe middle", scene::BoundaryQuantity::Kind::coordinate, {}};
   scene::BoundaryQuantity way{"way", "how the limit\nwas reached", scene::BoundaryQuantity::Kind::way, {}};
   distance.values.resize(count);
   way.values.resize(count);

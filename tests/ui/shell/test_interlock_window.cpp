@@ -137,7 +137,7 @@ class TestInterlockWindow : public QObject {
     Q_EMIT named("Colour")->activated(0);
     QCOMPARE(panel.view().style().quantity, std::string("contacts"));
     // Over it another one: of the document, and from disk.
-    panel.result()->write(folder_.filePath("kept").toStdString());
+    window_->document().study("boundary")->result->write(folder_.filePath("kept").toStdString());
     panel.compareWithFile(folder_.filePath("kept/boundary.ply"));
     QTRY_VERIFY(panel.compared() != nullptr);
     QCOMPARE(panel.compared()->knownCount(), 42);
