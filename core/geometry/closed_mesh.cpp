@@ -1,10 +1,40 @@
 #include "core/geometry/closed_mesh.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/geometry/triangle_intersection.hpp"
 
 namespace pliant::geometry {
+
+namespace {
+
+int countSurfaces(const SurfaceMesh& mesh) {
+  std::vector<int> root(static_cast<std::size_t>(mesh.points.cols()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto rootOf = [&](int node) {
+    while (root[node] != node) node = root[node] = root[root[node]];
+    return node;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    root[rootOf(b)] = rootOf(a);
+    root[rootOf(c)] = rootOf(a);
+  }
+  int count = 0;
+  std::vector<bool> seen(root.size(), false);
+  for (const auto& triangle : mesh.triangles) {
+    const int at = rootOf(triangle[0]);
+    if (!seen[at]) ++count;
+    seen[at] = true;
+  }
+  return count;
+}
+
+}  // namespace
 
 void checkClosed(const SurfaceMesh& mesh) {
   checkMesh(mesh);
@@ -32,6 +62,22 @@ void checkClosed(const SurfaceMesh& mesh) {
   }
 }
 
+void checkSolid(const SurfaceMesh& mesh) {
+  checkClosed(mesh);
+  if (const int count = countSurfaces(mesh); count > 1)
+    throw base::InputError("", "the mesh falls into " + std::to_string(count) + " separate surfaces, but must be one");
+  if (!(enclosedVolume(mesh) > 0))
+    throw base::InputError("", "the triangles of the mesh face inwards, but must face outwards");
+  const auto meets = findIntersections(mesh.points, mesh.triangles);
+  if (!meets.empty()) {
+    const auto& [edge, triangle] = meets.front();
+    throw base::InputError("", "the mesh runs into itself: the edge between points " + std::to_string(edge[0]) +
+                                   " and " + std::to_string(edge[1]) + " meets the triangle of points " +
+                                   std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + " and " +
+                                   std::to_string(triangle[2]));
+  }
+}
+
 double enclosedVolume(const SurfaceMesh& mesh) {
   double volume = 0;
   const Eigen::Vector3d from = mesh.points.col(mesh.triangles.front()[0]);
@@ -51,6 +97,25 @@ Eigen::Vector3d enclosedCentroid(const SurfaceMesh& mesh) {
     moment += 0.25 * part * (u + v + w);
   }
   return from + moment / volume;
+}
+
+double surfaceArea(const SurfaceMesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * (mesh.points.col(b) - mesh.points.col(a)).cross(mesh.points.col(c) - mesh.points.col(a)).norm();
+  return area;
+}
+
+int windingNumber(const SurfaceMesh& mesh, const Eigen::Vector3d& place) {
+  // Solid angles of the triangles (van Oosterom & Strackee 1983).
+  double angle = 0;
+  for (const auto& triangle : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.points.col(triangle[0]) - place, b = mesh.points.col(triangle[1]) - place,
+                          c = mesh.points.col(triangle[2]) - place;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return static_cast<int>(std::lround(angle / (4 * std::numbers::pi)));
 }
 
 }  // namespace pliant::geometry

@@ -9,8 +9,17 @@ namespace pliant::geometry {
 /// form one fan.
 void checkClosed(const SurfaceMesh& mesh);
 
+/// The same, and that it is the surface of one solid body: one connected surface, with its triangles facing outwards
+/// (counterclockwise seen from there), that does not run into itself.
+void checkSolid(const SurfaceMesh& mesh);
+
 /// What a closed mesh encloses [m³]; negative if its normals point inwards.
 double enclosedVolume(const SurfaceMesh& mesh);
+/// [m²]
+double surfaceArea(const SurfaceMesh& mesh);
+
+/// How often the closed mesh encloses a place that is not on it: 1 inside, 0 outside, if its normals point outwards.
+int windingNumber(const SurfaceMesh& mesh, const Eigen::Vector3d& place);
 
 /// The centroid of what a closed mesh encloses.
 Eigen::Vector3d enclosedCentroid(const SurfaceMesh& mesh);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/interlock/swept_contact.hpp"
+
 namespace pliant::interlock {
 
 namespace {
@@ -15,6 +17,13 @@ using Eigen::VectorXd;
 /// many steps to recover.
 constexpr double keptGap = 0.1;
 
+/// Of the barrier's range: parts that were farther apart come as near as this in one step.
+constexpr double withinRange = 0.3;
+
+/// EquilibriumOptions::firstGap of cells with thin pieces: a mesh has thousands of parts within the radius of a wire,
+/// which is what makes wide barriers slow, and does not need them, since its steps are safe at any gap.
+constexpr double firstGapOfMeshes = 0.01;
+
 }  // namespace
 
 BarrierDescent::BarrierDescent(const CellContact& contact, const CellState& start, double radius,
@@ -25,7 +34,20 @@ BarrierDescent::BarrierDescent(const CellContact& contact, const CellState& star
       pathLimit_(0.95 * 4 * radius),
       trust_(0.25 * pathLimit_),
       state_(start),
+      thin_(contact.hasThinPieces()),
       context_(context) {}
+
+VectorXd BarrierDescent::pathBeyond(const VectorXd&) const { return VectorXd::Zero(state_.positions.cols()); }
+
+double BarrierDescent::costOf(const CellState& state) const {
+  return objective(state) + (friction_ ? friction_->energy(state) : 0);
+}
+
+double BarrierDescent::collisionFreeStep(const VectorXd& velocity, double step, double range) const {
+  const VectorXd motion = step * velocity;
+  return step *
+         safeFraction(contact_, state_, motion, pathBeyond(motion), 2 * (range + pathLimit_), withinRange * range);
+}
 
 BarrierDescent::Outcome BarrierDescent::minimize(const CellContact::Barrier& barrier, double tolerance,
                                                  int maximumIterations) {
@@ -34,7 +56,7 @@ BarrierDescent::Outcome BarrierDescent::minimize(const CellContact::Barrier& bar
   while (true) {
     if (context_ && context_->cancelRequested()) return Outcome::cancelled;
     double gap = 0;
-    const double energy = linearize(barrier, gap) + objective(state_);
+    const double energy = linearize(barrier, gap) + costOf(state_);
     if (!std::isfinite(energy)) return Outcome::noProgress;
     const VectorXd velocity = direction();
     if (decrement_ <= tolerance * barrier.weight) return Outcome::minimum;
@@ -47,21 +69,28 @@ BarrierDescent::Outcome BarrierDescent::minimize(const CellContact::Barrier& bar
     ++iterations_;
 
     double step = largestStep(velocity, barrier.range);
-    const double longest = step;
-    const double path = step * relativePath(velocity, 2 * (barrier.range + pathLimit_));
-    pairs_ = contact_.nearParts(state_, barrier.range + path);
+    const double shortest = 1e-10 * step;
+    if (thin_) {
+      step = collisionFreeStep(velocity, step, barrier.range);
+    } else {
+      const double path = step * relativePath(velocity, 2 * (barrier.range + pathLimit_));
+      pairs_ = contact_.nearParts(state_, barrier.range + path);
+    }
     CellState next;
-    for (const double shortest = 1e-10 * step;; step *= 0.5) {
+    for (const double longest = step;; step *= 0.5) {
       if (step < shortest) return settled ? Outcome::minimum : Outcome::noProgress;
       next = advanced(state_, velocity, step);
+      // Of meshes far more parts are near than those that are near in the end.
+      if (thin_) pairs_ = contact_.nearParts(next, barrier.range);
       double nextGap = 0;
-      const double trial = contact_.energy(next, pairs_, barrier, nullptr, nullptr, &nextGap) + objective(next);
-      if (trial <= energy - 1e-4 * step * decrement_ && nextGap >= keptGap * gap) break;
+      const double trial = contact_.energy(next, pairs_, barrier, nullptr, nullptr, &nextGap) + costOf(next);
+      if (trial > energy - 1e-4 * step * decrement_ || !(nextGap >= keptGap * gap)) continue;
+      if (step < 0.5 * longest)
+        trust_ = std::max(0.25 * trust_, 1e-6 * pathLimit_);
+      else if (step == longest)
+        trust_ = std::min(2 * trust_, 0.25 * pathLimit_);
+      break;
     }
-    if (step < 0.5 * longest)
-      trust_ = std::max(0.25 * trust_, 1e-6 * pathLimit_);
-    else if (step == longest)
-      trust_ = std::min(2 * trust_, 0.25 * pathLimit_);
     state_ = next;
     if (hasReached()) return Outcome::reached;
     if (isUnlimited()) return Outcome::unlimited;
@@ -91,7 +120,9 @@ CellState BarrierDescent::relax(const EquilibriumOptions& options, double tolera
 CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
   CellEquilibrium result;
   const double finalGap = options.finalGap * radius_;
-  CellContact::Barrier barrier{weightFor(options.firstGap * radius_), radius_};
+  const double firstGap = thin_ ? std::min(options.firstGap, firstGapOfMeshes) : options.firstGap;
+  CellContact::Barrier barrier{weightFor(firstGap * radius_), radius_};
+  if (thin_) barrier.range *= std::min(1.0, options.rangeRatio * firstGap);
   Outcome outcome = Outcome::minimum;
   double predicted = std::numeric_limits<double>::infinity();
   while (true) {
@@ -112,7 +143,9 @@ CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
     // as methods that know the balanced forces (primal-dual ones) do not.
     double largest = 0;
     for (const CellContactForce& contact : result.contacts) largest = std::max(largest, contact.force);
-    if (largest > 0) barrier.largestForce = 4 * largest;
+    // Meshes have to see their walls as they are: their steps end where the first of many parts has lost most of its
+    // gap, and without its stiffness the next step would end there too.
+    if (largest > 0 && !thin_) barrier.largestForce = 4 * largest;
     barrier.split = predicted > 0.03 * radius_ ? 1 : predicted > 3e-3 * radius_ ? 2 : 4;
   }
   result.state = state_;

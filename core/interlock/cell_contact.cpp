@@ -91,6 +91,14 @@ CellContact::CellContact(const UnitCell& cell, double arcTurn) : cell_(cell) {
   for (const ElementShape& shape : cell.shapes) parts_.emplace_back(shape, arcTurn);
 }
 
+bool CellContact::hasThinPieces() const {
+  const double length = cell_.smallestRadius();
+  for (const ElementShape& shape : cell_.shapes)
+    for (const DilatedPiece& piece : shape.pieces)
+      if (piece.radius < length) return true;
+  return false;
+}
+
 Vector3d CellContact::offsetOf(const CellState& state, int a, int b, const std::array<int, 2>& shift) const {
   Vector3d offset = state.positions.col(a) - state.positions.col(b);
   offset.head<2>() -= stretchOf(state.strain) * (cell_.lattice * Vector2d(shift[0], shift[1]));

@@ -65,6 +65,9 @@ class CellContact {
 
   const UnitCell& cell() const { return cell_; }
   const ElementParts& partsOf(int element) const { return parts_[cell_.elements[element].shape]; }
+  /// Whether some pieces are so thin against the length by which steps are measured, UnitCell::smallestRadius, that
+  /// these could pass one through another: then steps are bounded by safeFraction.
+  bool hasThinPieces() const;
   /// Coordinates of a velocity, see `moved`.
   int coordinateCount() const { return 6 * static_cast<int>(cell_.elements.size()) + 3; }
 

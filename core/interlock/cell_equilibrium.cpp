@@ -7,6 +7,8 @@
 #include <random>
 
 #include "core/interlock/equilibrium_search.hpp"
+#include "core/interlock/frictional_rest.hpp"
+#include "core/interlock/swept_contact.hpp"
 
 namespace pliant::interlock {
 
@@ -28,7 +30,6 @@ CellSolver::CellSolver(const UnitCell& cell, const EquilibriumOptions& options)
 
 CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& drive,
                                   const base::ExecutionContext* context) const {
-  EquilibriumSearch search(*this, start, drive, context);
   CellEquilibrium result;
   const auto fail = [&](const std::string& message) {
     result.state = start;
@@ -39,7 +40,15 @@ CellEquilibrium CellSolver::solve(const CellState& start, const StrainDrive& dri
   if (!(contact_.smallestGap(start, radius_) > 0)) return fail("elements overlap in the state to start from");
   if (linkFinder_.linksAt(start) != links_)
     return fail("elements are not linked in the state to start from as at rest");
-  result = search.run(options_);
+  if (options_.friction > 0) {
+    StrainDrive rest = drive;
+    result = restWithFriction(contact_, start, options_, radius_, latticeScale_, [&](const CellState& state) {
+      rest.farthest = drive.farthest - drive.load.dot(state.strain - start.strain);
+      return std::make_unique<EquilibriumSearch>(*this, state, rest, context);
+    });
+  } else {
+    result = EquilibriumSearch(*this, start, drive, context).run(options_);
+  }
   if (linkFinder_.linksAt(result.state) != links_) return fail("a linking number changed on the way");
   return result;
 }
@@ -63,7 +72,8 @@ CellState perturbedState(const CellContact& contact, const CellState& state, dou
   for (double step = amplitude; step > 1e-9 * amplitude; step *= 0.5) {
     CellState next = move(velocity, step);
     // Far less than what could take one element through another.
-    if (step <= 0.1 && contact.smallestGap(next, reach) >= 0.5 * gap) return next;
+    const bool near = contact.hasThinPieces() ? 2 * farthestMove(contact, state, next) < gap : step <= 0.1;
+    if (near && contact.smallestGap(next, reach) >= 0.5 * gap) return next;
   }
   return state;
 }

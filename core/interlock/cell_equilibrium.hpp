@@ -33,6 +33,9 @@ struct EquilibriumOptions {
   /// Newton's decrement over the barrier's weight at which the problems on the way count as solved.
   double looseTolerance = 0.1;
   int maximumIterations = 600;  ///< of Newton's method, in all
+  /// Coulomb's coefficient of all contacts; 0: none. See restWithFriction: where a structure comes to rest then depends
+  /// on its way there.
+  double friction = 0;
 };
 
 /// For states on the way to a limit, which need not be exact.
@@ -71,7 +74,8 @@ CellState perturbedState(const CellContact& contact, const CellState& state, dou
 /// - The Hessian's eigenvalues are taken by their absolute values, so that saddles repel.
 /// - Elements never pass through one another. For two places to meet in the middle of a step, both sets of which they
 ///   are points must have been farther apart than their radii s = r_A + r_B before and after, so the two together must
-///   have moved by more than 2 s. Steps are shorter than that, and gaps are above 0 at both ends of each.
+///   have moved by more than 2 s. Steps are shorter than that, and gaps are above 0 at both ends of each. Those of
+///   pieces that are thinner than the length steps are measured by, as meshes are, end where safeFraction says.
 /// - Linking numbers are compared before and after all the same: a change is a failure.
 class CellSolver {
  public:

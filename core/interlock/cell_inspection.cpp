@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/interlock/linking_number.hpp"
+#include "core/interlock/overlapping_bodies.hpp"
 
 namespace pliant::interlock {
 
@@ -116,6 +117,10 @@ CellInspection inspectCell(const UnitCell& cell, double reachInRadii) {
     result.nearest = NearestElements{where.a, where.b, where.shift, gap, placeBetween(cell, where, gap)};
   if (result.overlaps()) {
     result.fault = pairText(cell, where.a, where.b, where.shift) + " overlap by " + sizeText(-gap) + ".";
+    return result;
+  }
+  if (const auto inside = overlappingBodies(contact, restState(cell))) {
+    result.fault = pairText(cell, inside->a, inside->b, inside->shift) + " overlap.";
     return result;
   }
   const auto found = LinkFinder(contact).linksAt(restState(cell));

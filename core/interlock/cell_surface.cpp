@@ -90,6 +90,14 @@ class SurfaceBuilder {
   std::vector<std::array<int, 3>> triangles_;
 };
 
+void addMesh(const SimplexSet& set, const Eigen::Matrix3d& rotation, const Vector3d& position,
+             SurfaceBuilder& builder) {
+  std::vector<int> points;
+  for (Eigen::Index i = 0; i < set.corners.cols(); ++i)
+    points.push_back(builder.add(rotation * set.corners.col(i) + position));
+  for (const auto& [a, b, c] : set.triangles) builder.addTriangle(points[a], points[b], points[c]);
+}
+
 void addSimplices(const SimplexSet& set, double radius, const Eigen::Matrix3d& rotation, const Vector3d& position,
                   SurfaceBuilder& builder) {
   const Eigen::Matrix3Xd corners = (rotation * set.corners).colwise() + position;
@@ -125,7 +133,10 @@ geometry::SurfaceMesh cellSurface(const UnitCell& cell, const CellState& state, 
         for (const DilatedPiece& piece : cell.shapes[cell.elements[k].shape].pieces) {
           const auto* core = std::get_if<ClosedCurve>(&piece.core);
           if (!core) {
-            addSimplices(std::get<SimplexSet>(piece.core), piece.radius, state.rotations[k], position, builder);
+            if (isClosedMesh(piece) && piece.radius == 0)
+              addMesh(std::get<SimplexSet>(piece.core), state.rotations[k], position, builder);
+            else
+              addSimplices(std::get<SimplexSet>(piece.core), piece.radius, state.rotations[k], position, builder);
             continue;
           }
           const ClosedCurve curve = core->rotated(state.rotations[k]);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/interlock/contact_motion.hpp"
 #include "core/mechanics/contact_element.hpp"
 
 namespace pliant::interlock {
@@ -11,23 +12,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Jacobian = Eigen::Matrix<double, 3, 15>;
-
-Matrix3d crossMatrix(const Vector3d& v) {
-  return (Matrix3d() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
-}
-
-/// Derivative by the strain of -F translation.
-Matrix3d strainColumns(const Eigen::Vector2d& translation) {
-  Matrix3d columns = Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k) columns.col(k).head<2>() = -stretchBasis()[k] * translation;
-  return columns;
-}
-
-/// Second derivative by the rotation vector of g · (exp[w] arm).
-Matrix3d rotationTerm(const Vector3d& g, const Vector3d& arm) {
-  return 0.5 * (g * arm.transpose() + arm * g.transpose()) - g.dot(arm) * Matrix3d::Identity();
-}
+using Jacobian = ContactJacobian;
 
 }  // namespace
 
@@ -58,9 +43,7 @@ bool ContactTerms::computeArcs(const PlacedPart& a, const PlacedPart& b, const V
   place = closest.armA - (a.part->radius + 0.5 * gap) * normal;
   if (!wantGradient && !wantHessian) return true;
 
-  Jacobian jacobian;
-  jacobian << Matrix3d::Identity(), -crossMatrix(closest.armA), -Matrix3d::Identity(), crossMatrix(closest.armB),
-      strainColumns(translation);
+  const Jacobian jacobian = contactJacobian(closest.armA, closest.armB, translation);
   const Vector ofDistance = jacobian.transpose() * normal;
   gradient = -force * ofDistance;
   if (!wantHessian) return true;

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/geometry/closed_mesh.hpp"
 
 namespace pliant::interlock {
 
@@ -71,7 +73,27 @@ void checkSimplices(const ElementShape& shape, std::size_t piece, const SimplexS
                     std::to_string(side[1]));
 }
 
+geometry::SurfaceMesh meshOf(const SimplexSet& set) { return {set.corners, set.triangles, {}, {}}; }
+
 }  // namespace
+
+bool isClosedMesh(const DilatedPiece& piece) {
+  const auto* set = std::get_if<SimplexSet>(&piece.core);
+  return set && set->closed && !set->triangles.empty() && set->segments.empty() && set->points.empty();
+}
+
+double halfThickness(const DilatedPiece& piece) {
+  if (!isClosedMesh(piece)) return piece.radius;
+  const geometry::SurfaceMesh mesh = meshOf(std::get<SimplexSet>(piece.core));
+  return piece.radius + 2 * std::abs(geometry::enclosedVolume(mesh)) / geometry::surfaceArea(mesh);
+}
+
+double ElementShape::contactLengthOrThickness() const {
+  if (contactLength > 0) return contactLength;
+  double least = std::numeric_limits<double>::infinity();
+  for (const DilatedPiece& piece : pieces) least = std::min(least, halfThickness(piece));
+  return least;
+}
 
 DilatedPiece wire(const ClosedCurve& curve, double radius) { return {curve, radius}; }
 
@@ -111,13 +133,25 @@ void checkShape(const ElementShape& shape) {
   if (shape.pieces.empty()) throw base::InputError("", "element \"" + shape.name + "\" has no pieces");
   for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
     const DilatedPiece& piece = shape.pieces[i];
-    if (!(piece.radius > 0) || !std::isfinite(piece.radius))
-      failPiece(shape, i, "has the radius " + std::to_string(piece.radius) + " m, but it must be above 0");
+    const bool isBody = isClosedMesh(piece);
+    if (!(isBody ? piece.radius >= 0 : piece.radius > 0) || !std::isfinite(piece.radius))
+      failPiece(shape, i,
+                "has the radius " + std::to_string(piece.radius) + " m, but it must " +
+                    (isBody ? "not be negative" : "be above 0"));
     if (const auto* curve = std::get_if<ClosedCurve>(&piece.core))
       checkCurve(shape, i, *curve);
     else
       checkSimplices(shape, i, std::get<SimplexSet>(piece.core));
+    if (isBody) {
+      try {
+        geometry::checkSolid(meshOf(std::get<SimplexSet>(piece.core)));
+      } catch (const base::InputError& error) {
+        failPiece(shape, i, "is not the surface of a body: " + error.problem());
+      }
+    }
   }
+  if (!(shape.contactLength >= 0) || !std::isfinite(shape.contactLength))
+    throw base::InputError("", "the contact length of element \"" + shape.name + "\" must not be negative");
 }
 
 }  // namespace pliant::interlock

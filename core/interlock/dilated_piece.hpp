@@ -25,8 +25,14 @@ struct SimplexSet {
 /// is a triangle mesh, with rounded edges.
 struct DilatedPiece {
   std::variant<ClosedCurve, SimplexSet> core;
-  double radius = 0;  ///< [m], above 0
+  double radius = 0;  ///< [m], above 0; of a closed mesh it may be 0
 };
+
+/// Whether the piece is the surface of a body: closed, and of triangles alone.
+bool isClosedMesh(const DilatedPiece& piece);
+/// Half of how thick a piece is [m]: its radius; of a closed mesh that plus the radius of a wire of the same volume and
+/// surface, 2V/A.
+double halfThickness(const DilatedPiece& piece);
 
 DilatedPiece wire(const ClosedCurve& curve, double radius);
 /// A rod with round ends from `from` to `to` [m].
@@ -43,11 +49,17 @@ DilatedPiece dilatedMesh(const geometry::SurfaceMesh& mesh, double radius);
 struct ElementShape {
   std::string name;
   std::vector<DilatedPiece> pieces;
+  /// The farthest from each other at which surfaces push, and what gaps, steps and perturbations are measured by [m];
+  /// 0: half the thickness of the thinnest piece.
+  double contactLength = 0;
+
+  double contactLengthOrThickness() const;
 };
 
 /// Throws base::InputError (location empty) with a sentence that names shape and piece: no pieces, a radius not above
-/// 0, a coordinate not finite, a curve, segment or triangle of no size, corners out of range, or an open piece that is
-/// declared closed.
+/// 0 (below it, of a closed mesh), a coordinate not finite, a curve, segment or triangle of no size, corners out of
+/// range, or an open piece that is declared closed. A closed mesh must be the surface of one body, see
+/// geometry::checkSolid.
 void checkShape(const ElementShape& shape);
 
 }  // namespace pliant::interlock

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
+#include "core/geometry/closed_mesh.hpp"
 #include "core/interlock/part_distance.hpp"
 
 namespace pliant::interlock {
@@ -14,16 +15,25 @@ namespace {
 
 using Eigen::Vector3d;
 
-double smallestRadiusOf(const ElementShape& shape) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const DilatedPiece& piece : shape.pieces) smallest = std::min(smallest, piece.radius);
-  return smallest;
+double thinnestOf(const ElementShape& shape) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const DilatedPiece& piece : shape.pieces) thinnest = std::min(thinnest, halfThickness(piece));
+  return thinnest;
 }
 
 }  // namespace
 
 ElementBody::ElementBody(const ElementShape& shape)
-    : name_(shape.name), smallestRadius_(smallestRadiusOf(shape)), parts_(shape, 0.262) {}
+    : name_(shape.name),
+      halfThickness_(thinnestOf(shape)),
+      parts_(shape, 0.262),
+      isPlainMesh_(shape.pieces.size() == 1 && isClosedMesh(shape.pieces[0]) && shape.pieces[0].radius == 0) {
+  for (const DilatedPiece& piece : shape.pieces) {
+    if (!isClosedMesh(piece)) continue;
+    const SimplexSet& set = std::get<SimplexSet>(piece.core);
+    solids_.push_back({set.corners, set.triangles, {}, {}});
+  }
+}
 
 geometry::SurfacePlace ElementBody::at(const Vector3d& place) const {
   static const Part point{PartKind::point, 0, 0};
@@ -65,12 +75,15 @@ geometry::SurfacePlace ElementBody::at(const Vector3d& place) const {
   }
   const double length = away.norm();
   const Vector3d direction = length > 0 ? Vector3d(away / length) : Vector3d::UnitX();
+  for (const geometry::SurfaceMesh& solid : solids_)
+    if (geometry::windingNumber(solid, place) > 0) return {-length - radius, place - (length + radius) * direction};
   return {least, place + (radius - length) * direction};
 }
 
 geometry::BodyMesh ElementBody::mesh(double tolerance) const {
+  if (isPlainMesh_) return {solids_.front(), {}, 1};
   // Chords between the points of a cell's size are near the tolerance for the thinnest piece.
-  const double cell = std::min(0.5 * smallestRadius_, std::sqrt(6 * smallestRadius_ * tolerance));
+  const double cell = std::min(0.5 * halfThickness_, std::sqrt(6 * halfThickness_ * tolerance));
   Eigen::AlignedBox3d box;
   for (const ElementParts::Node& node : parts_.nodes())
     if (node.part >= 0) {

@@ -14,14 +14,17 @@ class ElementBody {
   /// In the shape's coordinates [m].
   geometry::SurfacePlace at(const Eigen::Vector3d& place) const;
 
-  /// The body's surface as one closed manifold mesh, with chords within `tolerance` [m] of it. Throws base::InputError
+  /// The body's surface as one closed manifold mesh, with chords within `tolerance` [m] of it; of a single mesh that is
+  /// not dilated, that mesh. Throws base::InputError
   /// (location empty) if the pieces do not hang together, or are too thin for the size of the element.
   geometry::BodyMesh mesh(double tolerance) const;
 
  private:
   std::string name_;
-  double smallestRadius_;  ///< [m]
+  double halfThickness_;  ///< of the thinnest piece [m]
   ElementParts parts_;
+  std::vector<geometry::SurfaceMesh> solids_;  ///< the pieces that are closed meshes
+  bool isPlainMesh_;                           ///< one mesh that is not dilated
 };
 
 }  // namespace pliant::interlock

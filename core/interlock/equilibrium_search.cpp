@@ -50,6 +50,7 @@ double EquilibriumSearch::pull() const {
 double EquilibriumSearch::linearize(const CellContact::Barrier& barrier, double& gap) {
   const double energy = contact_.energy(state_, pairs_, barrier, &gradient_, &hessian_, &gap);
   addObjective(gradient_, &hessian_);
+  if (friction_) friction_->addDerivatives(state_, gradient_, hessian_);
   return energy;
 }
 

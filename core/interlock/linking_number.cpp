@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/interlock/handle_cycles.hpp"
+
 namespace pliant::interlock {
 
 namespace {
@@ -108,12 +110,16 @@ LinkFinder::LinkFinder(const CellContact& contact) : contact_(contact) {
     std::vector<Loop>& loops = loops_.emplace_back();
     for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
       const auto& [core, radius] = shape.pieces[i];
-      std::vector<Matrix3Xd> polygons;
+      std::vector<Cycle> cycles;
       if (const auto* curve = std::get_if<ClosedCurve>(&core))
-        polygons.push_back(polygonInWire(*curve, radius));
+        cycles = {{polygonInWire(*curve, radius)}};
+      else if (isClosedMesh(shape.pieces[i]))
+        cycles = handleCycles({std::get<SimplexSet>(core).corners, std::get<SimplexSet>(core).triangles, {}, {}});
       else if (std::get<SimplexSet>(core).closed)
-        polygons = loopsOf(std::get<SimplexSet>(core));
-      for (const Matrix3Xd& polygon : polygons) loops.push_back({static_cast<int>(i), polygon, ballAround(polygon)});
+        cycles = {loopsOf(std::get<SimplexSet>(core))};
+      for (std::size_t handle = 0; handle < cycles.size(); ++handle)
+        for (const Matrix3Xd& polygon : cycles[handle])
+          loops.push_back({static_cast<int>(i), static_cast<int>(handle), polygon, ballAround(polygon)});
     }
   }
 }
@@ -131,11 +137,13 @@ std::optional<std::vector<Link>> LinkFinder::linksAt(const CellState& state) con
         const Matrix3Xd polygonA = (state.rotations[a] * loopA.corners).colwise() + offset;
         const auto number = linkingNumber(polygonA, state.rotations[b] * loopB.corners);
         if (!number) return std::nullopt;
-        if (*number != 0) numbers[canonical({a, loopA.piece, b, loopB.piece, shift, 0})] += *number;
+        if (*number != 0)
+          numbers[canonical({a, loopA.piece, b, loopB.piece, shift, 0, loopA.handle, loopB.handle})] += *number;
       }
   }
   std::vector<Link> links;
   for (const auto& [place, number] : numbers) {
+    if (number == 0) continue;
     links.push_back(place);
     links.back().number = number;
   }

@@ -13,7 +13,7 @@ namespace pliant::interlock {
 std::optional<int> linkingNumber(const Eigen::Matrix3Xd& first, const Eigen::Matrix3Xd& second);
 
 /// Finds which closed pieces of a cell are linked. A curve is replaced by a polygon that stays inside its wire, so as
-/// long as elements do not overlap the numbers are exact.
+/// long as elements do not overlap the numbers are exact; the handles of a closed mesh are those of handleCycles.
 class LinkFinder {
  public:
   explicit LinkFinder(const CellContact& contact);
@@ -24,7 +24,7 @@ class LinkFinder {
 
  private:
   struct Loop {
-    int piece;
+    int piece, handle;
     Eigen::Matrix3Xd corners;
     Ball ball;
   };

@@ -120,7 +120,8 @@ UnitCell cutPatch(const UnitCell& cell, const PatchOutline& outline) {
       if (link.a != place[2] || link.number == 0) continue;
       const auto other = indices.find({place[0] + link.shift[0], place[1] + link.shift[1], link.b});
       if (other != indices.end())
-        patch.links.push_back(canonical({index, link.pieceA, other->second, link.pieceB, {0, 0}, link.number}));
+        patch.links.push_back(canonical(
+            {index, link.pieceA, other->second, link.pieceB, {0, 0}, link.number, link.handleA, link.handleB}));
     }
   std::sort(patch.links.begin(), patch.links.end());
   Vector2d mean = Vector2d::Zero();

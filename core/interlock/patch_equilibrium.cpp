@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/interlock/frictional_rest.hpp"
 #include "core/interlock/patch_search.hpp"
 
 namespace pliant::interlock {
@@ -65,7 +66,12 @@ CellEquilibrium PatchSolver::solve(const CellState& start, const PatchLoads& loa
   };
   for (const PointLoad& load : loads.forces) check(load.element);
   for (const int element : loads.clamped) check(element);
-  return checked(start, [&] { return PatchSearch(*this, start, loads, context).run(options_); });
+  return checked(start, [&] {
+    if (options_.friction == 0) return PatchSearch(*this, start, loads, context).run(options_);
+    return restWithFriction(contact_, start, options_, radius_, extent_, [&](const CellState& state) {
+      return std::make_unique<PatchSearch>(*this, state, loads, context);
+    });
+  });
 }
 
 CellEquilibrium PatchSolver::bend(const CellState& start, const StrainDrive& drive,

@@ -45,14 +45,15 @@ class PatchSolver {
   /// Distance of the farthest origin from the middle at rest [m].
   double extent() const { return extent_; }
 
-  /// Rest under loads. Throws base::InputError (location empty) if elements are named that are not there.
+  /// Rest under loads, with EquilibriumOptions::friction. Throws base::InputError (location empty) if elements are
+  /// named that are not there.
   CellEquilibrium solve(const CellState& start, const PatchLoads& loads,
                         const base::ExecutionContext* context = nullptr) const;
 
   /// Origins lie on the paraboloid whose curvatures are the state's `strain`, at the heights above it that they have at
   /// rest, and slide on it freely, as elements turn freely (thesis 4.3.4, equation 4.3.4); but so that the mean origin
   /// stays at the apex and the patch does not turn about its axis as a whole, Σ X_i × x_i = 0 for origins X_i at rest.
-  /// The drive moves the curvature [1/m], as it does the strain of a cell; it pulls on no elements.
+  /// The drive moves the curvature [1/m], as it does the strain of a cell; it pulls on no elements. Without friction.
   CellEquilibrium bend(const CellState& start, const StrainDrive& drive,
                        const base::ExecutionContext* context = nullptr) const;
 

@@ -73,19 +73,34 @@ double PatchSearch::objective(const CellState& state) const {
 double PatchSearch::linearize(const CellContact::Barrier& barrier, double& gap) {
   std::vector<std::array<int, 2>> near;
   for (const auto& [a, b, shift] : contact_.nearElements(state_, radius_)) near.push_back({a, b});
+  // Contacts that lag behind may have moved apart since.
+  if (friction_) friction_->visitPairs([&](int a, int b) { near.push_back({a, b}); });
   system_.begin(near, onParaboloid_ ? static_cast<int>(drive_.directions.cols()) : 0);
   gap = barrier.range;
+  const auto add = [&](const PartPair& pair, const ContactTerms& terms) {
+    system_.gradient.segment<6>(6 * pair.a) += terms.gradient.head<6>();
+    system_.gradient.segment<6>(6 * pair.b) += terms.gradient.segment<6>(6);
+    system_.diagonal(pair.a) += terms.hessian.topLeftCorner<6, 6>();
+    system_.diagonal(pair.b) += terms.hessian.block<6, 6>(6, 6);
+    system_.pair(pair.a, pair.b) += terms.hessian.block<6, 6>(0, 6);
+  };
   const double energy =
       contact_.visitContacts(state_, pairs_, barrier, true, true, [&](const PartPair& pair, const ContactTerms& terms) {
         gap = std::min(gap, terms.gap);
-        system_.gradient.segment<6>(6 * pair.a) += terms.gradient.head<6>();
-        system_.gradient.segment<6>(6 * pair.b) += terms.gradient.segment<6>(6);
-        system_.diagonal(pair.a) += terms.hessian.topLeftCorner<6, 6>();
-        system_.diagonal(pair.b) += terms.hessian.block<6, 6>(6, 6);
-        system_.pair(pair.a, pair.b) += terms.hessian.block<6, 6>(0, 6);
+        add(pair, terms);
       });
   if (!std::isfinite(energy)) return energy;
   addLoads();
+  if (friction_) {
+    friction_->visitContacts(state_, add);
+    Vector6 drag;
+    Matrix6 stiffness;
+    for (int i = 0; i < count(); ++i) {
+      friction_->elementDrag(state_, i, drag, stiffness);
+      system_.gradient.segment<6>(6 * Eigen::Index{i}) += drag;
+      system_.diagonal(i) += stiffness;
+    }
+  }
   reduceToUnknowns();
   return energy;
 }

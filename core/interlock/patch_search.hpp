@@ -43,8 +43,8 @@ class PatchSearch : public BarrierDescent {
   void addLoads();
   /// From velocities of elements in space to the unknowns: see unknowns_.
   void reduceToUnknowns();
-  /// How far each element moves at most, beyond its velocity, because the paraboloid is curved [m].
-  Eigen::VectorXd pathBeyond(const Eigen::VectorXd& velocity) const;
+  /// Because the paraboloid is curved.
+  Eigen::VectorXd pathBeyond(const Eigen::VectorXd& velocity) const override;
   /// Calls visit(path, gap of the balls around them) for all pairs of elements: see relativePath.
   template <class Visit>
   void visitPaths(const Eigen::VectorXd& velocity, Visit&& visit) const;

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/interlock/linking_number.hpp"
+#include "core/interlock/overlapping_bodies.hpp"
 
 namespace pliant::interlock {
 
@@ -19,8 +20,13 @@ std::string shiftText(const std::array<int, 2>& shift) {
 }
 
 std::string linkText(const Link& link) {
-  return "piece " + std::to_string(link.pieceA) + " of element " + std::to_string(link.a) + " and piece " +
-         std::to_string(link.pieceB) + " of element " + std::to_string(link.b) + " " + shiftText(link.shift);
+  const bool manyHandles = link.handleA > 0 || link.handleB > 0;
+  const auto pieceText = [&](int handle, int piece, int element) {
+    return (manyHandles ? "handle " + std::to_string(handle) + " of " : std::string()) + "piece " +
+           std::to_string(piece) + " of element " + std::to_string(element);
+  };
+  return pieceText(link.handleA, link.pieceA, link.a) + " and " + pieceText(link.handleB, link.pieceB, link.b) + " " +
+         shiftText(link.shift);
 }
 
 void checkElements(const UnitCell& cell) {
@@ -77,15 +83,14 @@ void checkLinks(const UnitCell& cell, const CellContact& contact) {
 
 double UnitCell::smallestRadius() const {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const ElementShape& shape : shapes)
-    for (const DilatedPiece& piece : shape.pieces) smallest = std::min(smallest, piece.radius);
+  for (const ElementShape& shape : shapes) smallest = std::min(smallest, shape.contactLengthOrThickness());
   return smallest;
 }
 
 Link canonical(const Link& link) {
   const std::array<int, 2> back = {-link.shift[0], -link.shift[1]};
   const bool turned = link.a > link.b || (link.a == link.b && back > link.shift);
-  return turned ? Link{link.b, link.pieceB, link.a, link.pieceA, back, link.number} : link;
+  return turned ? Link{link.b, link.pieceB, link.a, link.pieceA, back, link.number, link.handleB, link.handleA} : link;
 }
 
 UnitCell supercell(const UnitCell& cell, int first, int second) {
@@ -118,7 +123,9 @@ UnitCell supercell(const UnitCell& cell, int first, int second) {
                                           indexOf(restI, restJ, link.b),
                                           link.pieceB,
                                           {wholeI, wholeJ},
-                                          link.number}));
+                                          link.number,
+                                          link.handleA,
+                                          link.handleB}));
       }
     }
   return result;
@@ -142,6 +149,9 @@ void checkCell(const UnitCell& cell) {
          << -gap << " m at rest, but must be apart";
     failCell(text.str());
   }
+  if (const auto inside = overlappingBodies(contact, restState(cell)))
+    failCell("element " + std::to_string(inside->a) + " and element " + std::to_string(inside->b) + " " +
+             shiftText(inside->shift) + " overlap at rest, but must be apart");
   checkLinks(cell, contact);
 }
 

@@ -17,16 +17,18 @@ struct InterlockingElement {
 };
 
 /// Closed pieces `pieceA` of element `a` and `pieceB` of element `b`, the latter moved by whole lattice vectors, are
-/// linked `number` times (Gauss linking number, with its sign).
+/// linked `number` times (Gauss linking number, with its sign). A piece that is a closed mesh may have several handles,
+/// see handleCycles; any other has one at most.
 struct Link {
   int a = 0, pieceA = 0, b = 0, pieceB = 0;
   std::array<int, 2> shift{};
   int number = 0;
+  int handleA = 0, handleB = 0;
 
   friend bool operator==(const Link&, const Link&) = default;
   friend bool operator<(const Link& x, const Link& y) {
-    return std::tie(x.a, x.pieceA, x.b, x.pieceB, x.shift, x.number) <
-           std::tie(y.a, y.pieceA, y.b, y.pieceB, y.shift, y.number);
+    return std::tie(x.a, x.pieceA, x.handleA, x.b, x.pieceB, x.handleB, x.shift, x.number) <
+           std::tie(y.a, y.pieceA, y.handleA, y.b, y.pieceB, y.handleB, y.shift, y.number);
   }
 };
 
@@ -39,7 +41,9 @@ struct UnitCell {
   Eigen::Matrix2d lattice = Eigen::Matrix2d::Zero();  ///< translations in its columns [m]
   std::vector<Link> links;                            ///< that the material is meant to have at rest
 
-  double smallestRadius() const;  ///< of all pieces [m]
+  /// The length that gaps, steps and perturbations are measured by [m]: the least radius of all wires, see
+  /// ElementShape::contactLengthOrThickness.
+  double smallestRadius() const;
   bool isPeriodic() const { return !lattice.isZero(0); }
 };
 
@@ -52,7 +56,8 @@ Link canonical(const Link& link);
 
 /// Throws base::InputError (location empty) with one sentence: a faulty shape (see checkShape), no elements, a shape
 /// that is not there, a position or rotation that is none, a lattice whose vectors are parallel, elements that overlap
-/// at rest, closed pieces that are linked otherwise than declared. Only cells that pass may be computed with.
+/// at rest or are inside one another, closed pieces that are linked otherwise than declared. Only cells that pass may
+/// be computed with.
 void checkCell(const UnitCell& cell);
 /// The part of it after which gaps and links can be measured: shapes, elements and lattice, each by itself.
 void checkCellGeometry(const UnitCell& cell);

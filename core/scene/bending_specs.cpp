@@ -1,5 +1,6 @@
 #include "core/scene/bending_specs.hpp"
 
+#include "core/scene/interlock_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -122,7 +123,7 @@ std::vector<ParameterSpec> bendingStudySpecs() {
                        "1 mm"),
            withDefault(list("gravity", "Acceleration.", number("", "g", "Component.", dimensions::acceleration), 3, 3),
                        {0, 0, -9.81}),
-           withDefault(positive(number("density", "ρ", "Of the elements.", dimensions::density)), 1180)},
+           withDefault(positive(number("density", "ρ", "Of the elements.", dimensions::density)), 1180), frictionKey()},
           true, 1e-4)};
 }
 

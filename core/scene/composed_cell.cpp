@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 
@@ -46,9 +47,27 @@ interlock::SimplexSet simplicesFrom(const Json& entry) {
   return set;
 }
 
-interlock::DilatedPiece pieceFrom(const Json& entry, const std::string& pointer) {
+/// Corners that only look joined are made one, since surfaces made of them are open.
+geometry::SurfaceMesh weldedMesh(const std::filesystem::path& file, double scale) {
+  const geometry::SurfaceMesh read = geometry::readMesh(file, scale);
+  const double size = (read.points.rowwise().maxCoeff() - read.points.rowwise().minCoeff()).norm();
+  return geometry::weldMesh(read, 1e-6 * size);
+}
+
+interlock::DilatedPiece pieceFrom(const Json& entry, const std::string& pointer,
+                                  const std::filesystem::path& directory) {
   const std::string type = entry["type"];
   const double radius = entry["radius"];
+  if (type == "mesh") {
+    geometry::SurfaceMesh mesh = locate(pointer + "/file", [&] {
+      geometry::SurfaceMesh welded =
+          weldedMesh(directory / std::filesystem::path(entry["file"].get<std::string>()), entry["scale"]);
+      geometry::checkSolid(welded);
+      return welded;
+    });
+    mesh.points = (rotationFrom(entry, pointer) * mesh.points).colwise() + tripleFrom(entry["center"]);
+    return interlock::dilatedMesh(mesh, radius);
+  }
   if (type == "simplices") return {simplicesFrom(entry), radius};
   const Vector3d center = tripleFrom(entry["center"]);
   if (type == "circle")
@@ -68,7 +87,8 @@ interlock::DilatedPiece pieceFrom(const Json& entry, const std::string& pointer)
 
 }  // namespace
 
-interlock::UnitCell composedCell(const Json& entry, const std::string& pointer) {
+interlock::UnitCell composedCell(const Json& entry, const std::string& pointer,
+                                 const std::filesystem::path& directory) {
   interlock::UnitCell cell;
   for (int i = 0; i < 2; ++i)
     for (int axis = 0; axis < 2; ++axis) cell.lattice(axis, i) = entry["lattice"][i][axis];
@@ -78,7 +98,8 @@ interlock::UnitCell composedCell(const Json& entry, const std::string& pointer) 
     interlock::ElementShape& made = cell.shapes.emplace_back();
     made.name = shape["name"];
     for (std::size_t k = 0; k < shape["pieces"].size(); ++k)
-      made.pieces.push_back(pieceFrom(shape["pieces"][k], childPointer(place + "/pieces", k)));
+      made.pieces.push_back(pieceFrom(shape["pieces"][k], childPointer(place + "/pieces", k), directory));
+    if (shape.contains("contact_length")) made.contactLength = shape["contact_length"];
     locate(place, [&] { checkShape(made); });
   }
   for (std::size_t i = 0; i < entry["elements"].size(); ++i) {
@@ -95,7 +116,7 @@ interlock::UnitCell composedCell(const Json& entry, const std::string& pointer) 
   }
   for (const Json& link : entry["links"])
     cell.links.push_back({link["a"], link["piece_a"], link["b"], link["piece_b"],
-                          link["shift"].get<std::array<int, 2>>(), link["number"]});
+                          link["shift"].get<std::array<int, 2>>(), link["number"], link["handle_a"], link["handle_b"]});
   return cell;
 }
 

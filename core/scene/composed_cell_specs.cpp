@@ -24,6 +24,12 @@ ParameterSpec length(std::string key, std::string symbol, std::string descriptio
   return positive(number(std::move(key), std::move(symbol), std::move(description), dimensions::length));
 }
 
+ParameterSpec meshFile(std::string description) {
+  ParameterSpec path = text("file", std::move(description));
+  path.kind = base::ValueKind::path;
+  return path;
+}
+
 ParameterSpec turn(std::string description) {
   return optional(object(
       "rotation", std::move(description),
@@ -43,9 +49,20 @@ ParameterSpec piece() {
     keys.push_back(length("radius", "r", "All places nearer than this to the curve or the simplices are solid."));
     return object(std::move(type), std::move(description), std::move(keys));
   };
+  const auto mesh = object(
+      "mesh",
+      "A body whose surface is a closed mesh of triangles that face outwards and do not run into each other. Corners "
+      "nearer to each other than a millionth of its size are joined. Each of its handles can be linked, see "
+      "\"handle_a\".",
+      {meshFile("STL, OBJ, PLY or glTF, relative to the scene."),
+       withDefault(positive(number("scale", "", "Metres of a unit of the file.", dimensions::none)), 1),
+       withDefault(notNegative(number("radius", "r", "All places nearer than this to the body are solid as well.",
+                                      dimensions::length)),
+                   0),
+       place("center", "Where the file's origin is."), turn("Turns the mesh about the file's origin.")});
   const auto center = place("center", "Its centre.");
   return variant(
-      "piece", "A closed curve or simplices, with a radius. Pieces of a shape may overlap one another.",
+      "piece", "A closed curve, simplices or a mesh, with a radius. Pieces of a shape may overlap one another.",
       {kind("circle", "A ring.",
             {length("ring_radius", "R", "From the centre to the middle of the wire."), center,
              withDefault(
@@ -76,7 +93,8 @@ ParameterSpec piece() {
              withDefault(boolean("closed",
                                  "Whether segments must form loops, which can be linked, and triangles a surface "
                                  "without rim."),
-                         false)})});
+                         false)}),
+       mesh});
 }
 
 }  // namespace
@@ -90,7 +108,11 @@ std::vector<ParameterSpec> composedCellKeys() {
            list("", "A translation.", number("", "", "A component.", dimensions::length), 2, 2), 2, 2),
       list("shapes", "Rigid bodies that elements are copies of.",
            object("shape", "A rigid body, which turns about its origin.",
-                  {name(), list("pieces", "What it is made of.", piece(), 1, mostEntries)}),
+                  {name(), list("pieces", "What it is made of.", piece(), 1, mostEntries),
+                   optional(length("contact_length", "",
+                                   "What final gaps and perturbations are measured by, in place of the least radius of "
+                                   "all wires. That of a mesh is 2V/A, the radius of a wire of the same volume and "
+                                   "surface."))}),
            1, mostEntries),
       list("elements", "The elements of one cell.",
            object("element", "A shape, turned and moved.",
@@ -104,6 +126,8 @@ std::vector<ParameterSpec> composedCellKeys() {
                object("link", "Two closed pieces that hold each other.",
                       {element("a", "An element."), withDefault(element("piece_a", "Its piece."), 0),
                        element("b", "Another element, or the same."), withDefault(element("piece_b", "Its piece."), 0),
+                       withDefault(element("handle_a", "Of a mesh with several handles: which of them."), 0),
+                       withDefault(element("handle_b", "Of a mesh with several handles: which of them."), 0),
                        withDefault(list("shift", "Lattice vectors by which b is moved.",
                                         integer("", "", "Times a lattice vector.", -1000, 1000), 2, 2),
                                    {0, 0}),

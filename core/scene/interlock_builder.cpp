@@ -16,9 +16,9 @@ interlock::Rosette rosetteFrom(const Json& entry) {
       entry["ring_radius"], entry["wire_radius"], entry["distance"], entry["lean"], entry["spacing"], entry["aspect"]};
 }
 
-interlock::UnitCell cellFrom(const Json& entry, const std::string& pointer) {
+interlock::UnitCell cellFrom(const Json& entry, const std::string& pointer, const std::filesystem::path& directory) {
   const std::string type = entry["type"];
-  if (type == "composed") return composedCell(entry, pointer);
+  if (type == "composed") return composedCell(entry, pointer, directory);
   if (type == "four_in_one")
     return interlock::fourInOne(
         {entry["ring_radius"], entry["wire_radius"], entry["width"], entry["height"], entry["tilt"], entry["aspect"]});
@@ -33,11 +33,12 @@ interlock::UnitCell cellFrom(const Json& entry, const std::string& pointer) {
   return interlock::ringNet({entry["ring_radius"], entry["wire_radius"], entry["spacing"], entry["aspect"]});
 }
 
-interlock::UnitCell cellAt(const Json& cells, std::size_t index) {
+interlock::UnitCell cellAt(const Scene& scene, std::size_t index) {
+  const Json& cells = scene.normalized()["interlocking_cells"];
   interlock::UnitCell cell;
   const std::string pointer = childPointer("/interlocking_cells", index);
   locate(pointer, [&] {
-    cell = cellFrom(cells[index], pointer);
+    cell = cellFrom(cells[index], pointer, scene.directory());
     cell.name = cells[index]["name"];
     checkCell(cell);
     cell = supercell(cell, cells[index]["supercell"][0], cells[index]["supercell"][1]);
@@ -52,7 +53,7 @@ interlock::UnitCell buildCell(const Scene& scene, const std::string& name) {
   std::size_t index = 0;
   while (cells[index]["name"] != name) ++index;  // references have been checked
   try {
-    return cellAt(cells, index);
+    return cellAt(scene, index);
   } catch (const base::InputError& error) {
     throw error.inside(scene.name());
   }
@@ -61,7 +62,7 @@ interlock::UnitCell buildCell(const Scene& scene, const std::string& name) {
 DraftCell draftCell(const Scene& scene, std::size_t index) {
   const Json& entry = scene.normalized()["interlocking_cells"][index];
   DraftCell draft;
-  draft.cell = cellFrom(entry, childPointer("/interlocking_cells", index));
+  draft.cell = cellFrom(entry, childPointer("/interlocking_cells", index), scene.directory());
   draft.cell.name = entry["name"];
   draft.supercell = supercell(draft.cell, entry["supercell"][0], entry["supercell"][1]);
   return draft;
@@ -69,7 +70,7 @@ DraftCell draftCell(const Scene& scene, std::size_t index) {
 
 mechanics::Model cellPicture(const Scene& scene) {
   constexpr int cells = 3;
-  const interlock::UnitCell cell = cellAt(scene.normalized()["interlocking_cells"], 0);
+  const interlock::UnitCell cell = cellAt(scene, 0);
   const geometry::SurfaceMesh mesh = interlock::cellSurface(cell, interlock::restState(cell), cells, cells);
   mechanics::Model model;
   model.restPositions = mesh.points.reshaped();

@@ -34,6 +34,7 @@ Json InterlockResult::materialSummary() const {
   json["cell"] = cell->name;
   json["elements_in_cell"] = cell->elements.size();
   json["perturbation"] = provenance.options.value("perturbation", 0.0);
+  if (const double friction = provenance.options.value("friction", 0.0); friction > 0) json["friction"] = friction;
   json["smallest_radius"] = cell->smallestRadius();
   return json;
 }

@@ -115,6 +115,16 @@ ParameterSpec trialsKey() {
 
 }  // namespace
 
+ParameterSpec frictionKey() {
+  return withDefault(
+      within(number("friction", "μ",
+                    "Coulomb's coefficient of all contacts; 0: none. With friction elements rest where it holds them, "
+                    "which depends on the way there, and limits are those of a slow pull from rest.",
+                    dimensions::none),
+             0, 10),
+      0);
+}
+
 std::vector<ParameterSpec> interlockingCellSpecs() {
   std::vector<ParameterSpec> scaleKeys =
       rosetteKeys("3.567567567567567 mm", "0.9 mm", "4.6378378378378375 mm", "60 deg", "13.2 mm");
@@ -161,11 +171,12 @@ std::vector<ParameterSpec> interlockStudySpecs() {
   return {
       studyOf("cell_test", "How far a material can be stretched or compressed in one direction (thesis 4.3.2).",
               {withDefault(choice("load", "What is done to it.", {"stretch", "compress"}), "stretch"),
-               angleKey("direction", "From the first axis.", "0 deg"), lateralKey(), ratioKey(), trialsKey()}),
+               angleKey("direction", "From the first axis.", "0 deg"), lateralKey(), ratioKey(), trialsKey(),
+               frictionKey()}),
       studyOf("free_travel",
               "Stretch and compression limits in many directions, and the free travel between them (thesis 4.4.1).",
               {withDefault(integer("directions", "", "Directions, evenly spread over half a turn.", 1, 3600), 36),
-               lateralKey(), ratioKey(), trialsKey()}),
+               lateralKey(), ratioKey(), trialsKey(), frictionKey()}),
       studyOf("stretch_grid",
               "The same set as of a \"stretch_boundary\", by slices as in the thesis (4.3.3): principal directions, "
               "principal strains between their limits, and the limits across. It asks for no star shape, and makes no "

@@ -10,5 +10,7 @@ namespace pliant::scene {
 std::vector<base::ParameterSpec> interlockingCellSpecs();
 /// Studies of interlocking cells.
 std::vector<base::ParameterSpec> interlockStudySpecs();
+/// "friction" of a study.
+base::ParameterSpec frictionKey();
 
 }  // namespace pliant::scene

@@ -14,6 +14,7 @@ InterlockStudy::InterlockStudy(const Scene& scene, const Json& options)
 interlock::EquilibriumOptions InterlockStudy::equilibriumOptions() const {
   interlock::EquilibriumOptions options;
   options.finalGap = options_["final_gap"];
+  options.friction = options_.value("friction", 0.0);
   return options;
 }
 
