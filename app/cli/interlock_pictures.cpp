@@ -15,11 +15,13 @@
 #include "core/scene/boundary_surface.hpp"
 #include "core/scene/interlock_reading.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/macro_reading.hpp"
 #include "core/scene/polar_curves.hpp"
 #ifdef PLIANT_HAS_RENDERER
 #include "app/cli/picture_size.hpp"
 #include "ui/render/boundary_picture.hpp"
 #include "ui/render/chart_picture.hpp"
+#include "ui/render/macro_view.hpp"
 #include "ui/render/polar_curves_picture.hpp"
 #endif
 
@@ -160,6 +162,12 @@ render::Image patchImage(const AnyResult& result, render::PictureOptions picture
   return render::drawPatch(configuration, picture);
 }
 
+render::Image macroImage(const scene::Scene& scene, const InterlockFolder& found, render::PictureOptions picture) {
+  const auto result = scene::readMacro(scene, found.folder);
+  picture.caption += '\n' + render::macroCaption(*result);
+  return render::drawMacro(result, picture);
+}
+
 /// What of a result is drawn over directions or sizes; neither of most.
 struct InterlockPlots {
   std::vector<scene::PolarCurves> polar;
@@ -216,6 +224,8 @@ std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const Bo
     render::writePng(patchImage(*scene::readBendingTest(scene, found->folder), picture), options.out);
   else if (type == "gravity_bending")
     render::writePng(patchImage(*scene::readGravityBending(scene, found->folder), picture), options.out);
+  else if (type == "macro_equilibrium")
+    render::writePng(macroImage(scene, *found, picture), options.out);
   else
     throw InputError(found->folder.string(), "There is no picture of a result of the type " + scene::quote(type) + ".");
   std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";

@@ -32,7 +32,7 @@ Json MacroResult::summary() const {
   json["cell"] = cell->name;
   json["nodes"] = sheet->mesh.points.cols();
   json["triangles"] = sheet->mesh.triangles.size();
-  json["clamped_nodes"] = clamped.size();
+  json["clamped"] = clamped;
   json["iterations"] = state.report.iterations.empty() ? 0 : state.report.iterations.size() - 1;
   json["residual"] = state.report.residual();
   json["work"] = state.work;

@@ -10,6 +10,7 @@
 
 #include "core/interlock/holding_contacts.hpp"
 #include "core/scene/bending_result.hpp"
+#include "core/scene/macro_result.hpp"
 
 namespace pliant::panels {
 
@@ -42,6 +43,13 @@ QString degrees(const scene::Json& options) {
 QString loadText(const scene::Json& options) {
   const std::string type = options.value("type", "");
   if (type == "gravity_bending") return QObject::tr("weight, clamped towards %1°").arg(degrees(options));
+  if (type == "macro_equilibrium") {
+    const auto count = [&](const char* key) {
+      return options.contains(key) ? static_cast<int>(options[key].size()) : 0;
+    };
+    return QObject::tr("sheet, %n load(s)", nullptr, count("loads")) +
+           QObject::tr(", %n clamp(s)", nullptr, count("clamps"));
+  }
   const bool bends = type == "bending_test";
   const QString load = QString::fromStdString(bends ? options.value("bend", "up") : options.value("load", "stretch"));
   return (bends ? QObject::tr("bend %1 at %2°, %3 across") : QObject::tr("%1 at %2°, %3 across"))
@@ -57,6 +65,13 @@ struct LimitRow {
 
 std::optional<LimitRow> rowOf(const scene::Result* result) {
   LimitRow row;
+  if (const auto* sheet = dynamic_cast<const scene::MacroResult*>(result)) {
+    if (sheet->termination != base::TerminationType::converged) return std::nullopt;
+    const auto rest = sheet->sheet->mesh.points.reshaped();
+    const double farthest = (sheet->state.positions - rest).reshaped(3, rest.size() / 3).colwise().norm().maxCoeff();
+    row.outcome = QObject::tr("moved by up to %1 mm").arg(1e3 * farthest, 0, 'f', 2);
+    return row;
+  }
   if (const auto* stretched = dynamic_cast<const scene::CellTestResult*>(result)) {
     row.rest = &stretched->limit.equilibrium;
     row.radius = stretched->cell->smallestRadius();
@@ -92,7 +107,7 @@ std::size_t placesOf(const LimitRow& row) {
 }  // namespace
 
 bool CellTestPanel::shows(const std::string& type) {
-  return type == "cell_test" || type == "bending_test" || type == "gravity_bending";
+  return type == "cell_test" || type == "bending_test" || type == "gravity_bending" || type == "macro_equilibrium";
 }
 
 CellTestPanel::CellTestPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {

@@ -89,10 +89,11 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
       sizes_(sizes),
       tests_(tests),
       view_(std::make_shared<render::LimitView>()),
-      patchView_(std::make_shared<render::PatchView>()) {
+      patchView_(std::make_shared<render::PatchView>()),
+      macroView_(std::make_shared<render::MacroView>()) {
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     grows_.clear();
-    framed_ = patchFramed_ = false;
+    framed_ = patchFramed_ = macroFramed_ = false;
     leave();
   });
   connect(&document_, &document::Document::sceneEdited, this, &InterlockLink::refreshStale);
@@ -101,7 +102,9 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
   connect(&tests_, &panels::CellTestPanel::studyChosen, this, &InterlockLink::showTest);
 }
 
-bool InterlockLink::isShown() const { return viewport_.guest() == view_ || viewport_.guest() == patchView_; }
+bool InterlockLink::isShown() const {
+  return viewport_.guest() == view_ || viewport_.guest() == patchView_ || viewport_.guest() == macroView_;
+}
 
 void InterlockLink::follow(const std::string& name) {
   const document::StudyState* study = document_.study(name);
@@ -134,6 +137,19 @@ void InterlockLink::showTest(const std::string& name) {
   };
   if (const auto* bent = dynamic_cast<const scene::BendingTestResult*>(found)) return showPatch(*bent);
   if (const auto* hanging = dynamic_cast<const scene::GravityBendingResult*>(found)) return showPatch(*hanging);
+  if (const auto sheet = std::dynamic_pointer_cast<const scene::MacroResult>(study ? study->result : nullptr)) {
+    study_ = name;
+    tests_.setShown(name);
+    const bool another = macroView_->result() != sheet;
+    macroView_->setResult(sheet);
+    showGuest(macroView_, QString::fromStdString(render::macroCaption(*sheet)));
+    if (!std::exchange(macroFramed_, true))
+      viewport_.setAxisView(render::AxisView::isometric);
+    else if (another)
+      viewport_.fit();
+    viewport_.redrawGuest(true);
+    return;
+  }
   const auto* result = dynamic_cast<const scene::CellTestResult*>(found);
   if (!result || result->limit.equilibrium.state.rotations.empty()) {
     leave();
@@ -241,6 +257,7 @@ void InterlockLink::refreshStale() {
   }
   view_->setStale(study->stale);
   patchView_->setStale(study->stale);
+  macroView_->setStale(study->stale);
   viewport_.redrawGuest();
 }
 

@@ -7,6 +7,7 @@
 #include "ui/document/document.hpp"
 #include "ui/jobs/job_runner.hpp"
 #include "ui/render/limit_view.hpp"
+#include "ui/render/macro_view.hpp"
 #include "ui/render/patch_view.hpp"
 
 namespace pliant::panels {
@@ -34,8 +35,8 @@ class InterlockLink final : public QObject {
                 panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::SizePanel& sizes,
                 panels::CellTestPanel& tests, QObject* parent = nullptr);
 
-  /// The configuration at the limit of a `cell_test` or `bending_test`, or at rest of a `gravity_bending`; empty: the
-  /// material at rest.
+  /// The configuration at the limit of a `cell_test` or `bending_test`, or at rest of a `gravity_bending` or
+  /// `macro_equilibrium`; empty: the material at rest.
   void showTest(const std::string& study);
   /// The configuration at a limit of the boundary on show; -1: the material at rest.
   void showState(int state);
@@ -67,9 +68,10 @@ class InterlockLink final : public QObject {
   panels::CellTestPanel& tests_;
   std::shared_ptr<render::LimitView> view_;
   std::shared_ptr<render::PatchView> patchView_;
-  std::string study_;                          ///< whose limit is shown, or asked for
-  std::string grows_;                          ///< study that was brought to its panel while it ran
-  bool framed_ = false, patchFramed_ = false;  ///< the views have been turned once for this scene
+  std::shared_ptr<render::MacroView> macroView_;
+  std::string study_;  ///< whose limit is shown, or asked for
+  std::string grows_;  ///< study that was brought to its panel while it ran
+  bool framed_ = false, patchFramed_ = false, macroFramed_ = false;  ///< the views have been turned once for this scene
 };
 
 /// Whether a study is one of an interlocking cell.

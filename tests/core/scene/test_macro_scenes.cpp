@@ -7,7 +7,7 @@
 #include "core/math/parallel.hpp"
 #include "core/scene/csv_table.hpp"
 #include "core/scene/json_text.hpp"
-#include "core/scene/macro_result.hpp"
+#include "core/scene/macro_reading.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/study.hpp"
 
@@ -102,6 +102,19 @@ class TestMacroScenes : public QObject {
     }
     math::setThreadCount(0);
     QVERIFY(texts[0] == texts[1]);
+  }
+
+  void resultIsReadFromItsFolder() {
+    const auto result = resultOf(sceneText);
+    QTemporaryDir folder;
+    result->write(folder.filePath("r").toStdString());
+    const scene::Scene scene = scene::Scene::parse(sceneText, ".", "mail.json");
+    const auto read = scene::readMacro(scene, folder.filePath("r").toStdString());
+    QVERIFY(read->state.positions == result->state.positions);
+    QVERIFY(read->sheet->mesh.triangles == result->sheet->mesh.triangles);
+    QVERIFY(read->state.stretchGauge == result->state.stretchGauge);
+    QVERIFY(read->clamped == result->clamped);
+    QVERIFY(read->native && read->native->rest.state.positions == result->native->rest.state.positions);
   }
 
   /// What a study of the boundary writes is read again.

@@ -1,0 +1,201 @@
+#include "ui/render/macro_view.hpp"
+
+#include <vtkRenderWindow.h>
+
+#include <algorithm>
+
+#include "core/base/units.hpp"
+#include "ui/render/bounds.hpp"
+#include "ui/render/color_key.hpp"
+#include "ui/render/color_map.hpp"
+#include "ui/render/dot_overlay.hpp"
+#include "ui/render/offscreen_target.hpp"
+#include "ui/render/sheet_primitive.hpp"
+#include "ui/render/stage.hpp"
+
+namespace pliant::render {
+namespace {
+
+constexpr double captionRoom = 84;  // device-independent pixels
+
+std::string numberText(double value) { return base::formatQuantity(value, {}); }
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f mm", 1e3 * metres);
+  return text;
+}
+
+}  // namespace
+
+struct MacroView::Parts {
+  Stage& stage;
+  SheetPrimitive sheet;
+  LinePrimitive edges{0.6};
+  vtkNew<vtkPoints> edgePoints;
+  vtkNew<vtkLookupTable> table;
+  DotOverlay clamps, origins;
+  ColorKey key;
+  std::shared_ptr<const scene::MacroResult> result;
+  MacroField field = MacroField::nearest;
+  bool stale = false;
+
+  explicit Parts(Stage& around) : stage(around) {
+    stage.renderer()->AddActor(sheet.actor());
+    stage.renderer()->AddActor(edges.actor());
+    clamps.addTo(stage.renderer());
+    origins.addTo(stage.renderer());
+    key.addTo(stage.renderer());
+    stage.legend().setTable(table);
+    stage.onLayOut = [this] {
+      placeDots();
+      key.layOut();
+    };
+    stage.onTheme = [this] { applyTheme(); };
+    stage.onField = [this] { applyTheme(); };
+    stage.onPixelRatio = [this] {
+      edges.setPixelRatio(stage.pixelRatio());
+      for (DotOverlay* dots : {&clamps, &origins}) dots->setPixelRatio(stage.pixelRatio());
+      key.setPixelRatio(stage.pixelRatio());
+      stage.camera().setTopMargin(captionRoom * stage.pixelRatio());
+    };
+    show();
+    stage.setTheme(Theme::light);
+  }
+
+  Points positions() const { return result->state.positions.reshaped(3, result->sheet->mesh.points.cols()); }
+
+  void show() {
+    const bool visible = result && result->state.positions.size() > 0;
+    for (vtkActor* actor : {sheet.actor(), edges.actor()}) actor->SetVisibility(visible);
+    for (DotOverlay* dots : {&clamps, &origins}) dots->setVisible(visible);
+    if (!visible) return;
+    const geometry::SurfaceMesh& mesh = result->sheet->mesh;
+    const Points places = positions();
+    sheet.setTopology(mesh.triangles);
+    sheet.setPoints(places);
+    std::vector<std::array<int, 2>> segments;
+    for (const geometry::MeshEdge& edge : geometry::meshEdges(mesh.triangles)) segments.push_back(edge.nodes);
+    edgePoints->SetNumberOfPoints(places.cols());
+    for (Eigen::Index i = 0; i < places.cols(); ++i) edgePoints->SetPoint(i, places.col(i).data());
+    edges.setPoints(edgePoints);
+    edges.setTopology(segments);
+    Bounds bounds;
+    bounds.add(places);
+    if (result->native) bounds.add(result->native->rest.state.positions);
+    stage.camera().setReach(bounds.corners());
+  }
+
+  void applyTheme() {
+    const Palette& colors = stage.colors();
+    const bool visible = result && result->state.positions.size() > 0;
+    setColor(sheet.actor(), stale ? faded(colors.rest) : colors.rest);
+    setColor(edges.actor(), colors.background);
+    clamps.setColors(colors.link, colors.background);
+    origins.setColors(colors.prediction, colors.background);
+    std::vector<ColorKey::Entry> entries;
+    if (visible && !result->clamped.empty()) entries.push_back({"●", "clamped", colors.link});
+    if (visible && result->native) entries.push_back({"●", "elements", colors.prediction});
+    key.setEntries(std::move(entries), colors.text);
+    stage.setNotice(stale && visible ? "inputs have changed since this was computed" : "", colors.text);
+    showField();
+  }
+
+  void showField() {
+    const bool visible = result && stage.fieldVisible() && result->state.stretchGauge.size() > 0;
+    setViridis(table, 0, 1, stale);
+    stage.legend().setQuantity(field == MacroField::bending   ? "bending / limit\n1: at the limit"
+                               : field == MacroField::stretch ? "stretch / limit\n1: at the limit"
+                                                              : "nearness to limits\n1: at a limit",
+                               Legend::Scale::plain, "");
+    stage.legend().setRange(0, 1);
+    stage.setLegendVisible(visible);
+    if (!visible) {
+      sheet.setField(nullptr, table);
+      return;
+    }
+    const interlock::MacroState& state = result->state;
+    const Eigen::VectorXd values = field == MacroField::stretch   ? state.stretchGauge
+                                   : field == MacroField::bending ? state.bendingGauge
+                                                                  : state.stretchGauge.cwiseMax(state.bendingGauge);
+    sheet.setField(&values, table);
+  }
+
+  void placeDots() {
+    if (!result || result->state.positions.size() == 0) return;
+    const Points places = positions();
+    Points held(3, static_cast<Eigen::Index>(result->clamped.size()));
+    for (std::size_t i = 0; i < result->clamped.size(); ++i)
+      held.col(static_cast<Eigen::Index>(i)) = places.col(result->clamped[i]);
+    put(held, clamps);
+    put(result->native ? Points(result->native->rest.state.positions) : Points(3, 0), origins);
+  }
+
+  void put(const Points& places, DotOverlay& dots) const {
+    Eigen::Matrix2Xd pixels(2, places.cols());
+    Eigen::Index count = 0;
+    for (Eigen::Index i = 0; i < places.cols(); ++i)
+      if (const auto pixel = stage.camera().pixelOf(places.col(i))) pixels.col(count++) = *pixel;
+    dots.setPlaces(pixels.leftCols(count));
+  }
+};
+
+MacroView::MacroView() : parts_(std::make_unique<Parts>(stage())) {}
+
+MacroView::~MacroView() { attach(nullptr); }
+
+void MacroView::setResult(std::shared_ptr<const scene::MacroResult> result) {
+  parts_->result = std::move(result);
+  parts_->show();
+  parts_->applyTheme();
+}
+
+const std::shared_ptr<const scene::MacroResult>& MacroView::result() const { return parts_->result; }
+
+void MacroView::setField(MacroField field) {
+  parts_->field = field;
+  parts_->showField();
+}
+
+void MacroView::setStale(bool stale) {
+  if (parts_->stale == stale) return;
+  parts_->stale = stale;
+  parts_->applyTheme();
+}
+
+std::optional<int> MacroView::pickNode(double, double, double) const { return std::nullopt; }
+
+std::string macroCaption(const scene::MacroResult& result) {
+  std::string text = result.provenance.study + ":  " + std::to_string(result.sheet->mesh.triangles.size()) +
+                     " triangles,  at most " + numberText(result.state.stretchGauge.maxCoeff()) +
+                     " of the limits of stretch";
+  if (result.state.bendingGauge.size() > 0 && result.state.bendingGauge.maxCoeff() > 0)
+    text += ",  " + numberText(result.state.bendingGauge.maxCoeff()) + " of those of bending";
+  if (result.deflections.cols() > 0) {
+    double largest = 0;
+    for (Eigen::Index i = 0; i < result.deflections.cols(); ++i)
+      largest = std::max(largest, result.deflections.col(i).norm());
+    text += "\nloads moved by up to " + millimetres(largest);
+  }
+  if (result.native)
+    text += std::string(result.deflections.cols() > 0 ? ",  " : "\n") + "elements off the sheet by " +
+            millimetres(result.native->meanDistance) + " on average, " + millimetres(result.native->largestDistance) +
+            " at most";
+  return text;
+}
+
+Image drawMacro(const std::shared_ptr<const scene::MacroResult>& result, const PictureOptions& options) {
+  OffscreenTarget target;
+  target.setSize(options.width, options.height);
+  MacroView view;
+  view.attach(target.window());
+  view.setResult(result);
+  view.setTheme(options.theme);
+  view.setCaption(options.caption);
+  view.setAxisView(options.view);
+  Image image;
+  target.render(image);
+  return image;
+}
+
+}  // namespace pliant::render
