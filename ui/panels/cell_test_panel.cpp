@@ -44,11 +44,13 @@ QString loadText(const scene::Json& options) {
   const std::string type = options.value("type", "");
   if (type == "gravity_bending") return QObject::tr("weight, clamped towards %1°").arg(degrees(options));
   if (type == "macro_equilibrium") {
-    const auto count = [&](const char* key) {
-      return options.contains(key) ? static_cast<int>(options[key].size()) : 0;
+    const auto counted = [&](const char* key, const QString& one, const QString& many) {
+      const std::size_t count = options.contains(key) ? options[key].size() : 0;
+      return count == 1 ? one : many.arg(count);
     };
-    return QObject::tr("sheet, %n load(s)", nullptr, count("loads")) +
-           QObject::tr(", %n clamp(s)", nullptr, count("clamps"));
+    return QObject::tr("sheet, %1, %2")
+        .arg(counted("loads", QObject::tr("one load"), QObject::tr("%1 loads")),
+             counted("clamps", QObject::tr("one clamp"), QObject::tr("%1 clamps")));
   }
   const bool bends = type == "bending_test";
   const QString load = QString::fromStdString(bends ? options.value("bend", "up") : options.value("load", "stretch"));
