@@ -18,6 +18,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "ui/panels/design_panel.hpp"
 #include "ui/panels/energy_panel.hpp"
 #include "ui/panels/inspector.hpp"
 #include "ui/panels/limit_panel.hpp"
@@ -126,6 +127,7 @@ void MainWindow::buildDocks() {
   response_ = new panels::ResponsePanel(document_, session_, quickJobs_);
   motion_ = new panels::MotionPanel(session_);
   modes_ = new panels::ModesPanel(document_, session_);
+  design_ = new panels::DesignPanel(document_);
   limits_ = new panels::LimitPanel(document_);
   energies_ = new panels::EnergyPanel(document_);
   log_ = new panels::LogPanel;
@@ -148,13 +150,15 @@ void MainWindow::buildDocks() {
   QDockWidget* modes = add(tr("Modes"), "modes", modes_, Qt::RightDockWidgetArea);
   QDockWidget* limits = add(tr("Stretch limits"), "limits", limits_, Qt::RightDockWidgetArea);
   QDockWidget* energies = add(tr("Energy and solver"), "energy", energies_, Qt::BottomDockWidgetArea);
-  harmonicDocks_ = {plot, motion, modes};
+  QDockWidget* design = add(tr("Design"), "design", design_, Qt::BottomDockWidgetArea);
+  harmonicDocks_ = {plot, motion, modes, design};
   clothDocks_ = {limits, energies};
   tabifyDockWidget(docks_[1], limits);
   tabifyDockWidget(docks_[2], modes);
   docks_[2]->raise();
   tabifyDockWidget(plot, motion);
-  tabifyDockWidget(motion, energies);
+  tabifyDockWidget(motion, design);
+  tabifyDockWidget(design, energies);
   tabifyDockWidget(energies, log);
   makeInterlockDocks();
   plot->raise();
@@ -187,6 +191,12 @@ void MainWindow::connectParts() {
   connectInterlock();
   connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
   connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
+  connect(design_, &panels::DesignPanel::designChosen, link, &ViewportLink::showDesign);
+  connect(design_, &panels::DesignPanel::designLeft, link, &ViewportLink::showMotion);
+  connect(design_, &panels::DesignPanel::runRequested, this, [this](const std::string& name) { session_.run({name}); });
+  connect(design_, &panels::DesignPanel::designsGrow, this, [this] {
+    if (auto* dock = qobject_cast<QDockWidget*>(design_->parentWidget())) dock->raise();
+  });
   connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);
   connect(viewport_, &viewport::Viewport::tauChanged, motion_, &panels::MotionPanel::setTau);
   status_->watch(studyJobs_);

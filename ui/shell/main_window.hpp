@@ -22,6 +22,7 @@ namespace pliant::panels {
 class CellPanel;
 class BoundaryPanel;
 class CellTestPanel;
+class DesignPanel;
 class EnergyPanel;
 class LimitPanel;
 class LogPanel;
@@ -73,6 +74,7 @@ class MainWindow final : public QMainWindow {
   panels::ResponsePanel& response() { return *response_; }
   panels::ModesPanel& modes() { return *modes_; }
   panels::MotionPanel& motion() { return *motion_; }
+  panels::DesignPanel& design() { return *design_; }
   panels::MessageBar& messages() { return *messages_; }
   panels::SceneTree& sceneTree() { return *tree_; }
   panels::LimitPanel& limits() { return *limits_; }
@@ -189,6 +191,7 @@ class MainWindow final : public QMainWindow {
   panels::ResponsePanel* response_ = nullptr;
   panels::ModesPanel* modes_ = nullptr;
   panels::MotionPanel* motion_ = nullptr;
+  panels::DesignPanel* design_ = nullptr;
   panels::LimitPanel* limits_ = nullptr;
   panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;

@@ -51,6 +51,8 @@ void ViewportLink::showModel() {
 }
 
 void ViewportLink::showMotion() {
+  // A design may have put another shape there.
+  if (document_.model() && drawn_ && !looksAlike(*drawn_, *document_.model())) showModel();
   const auto& shown = session_.shown();
   const bool fits = shown && drawn_ && looksAlike(shown->problem->model(), *drawn_);
   if (!fits) {
@@ -73,6 +75,17 @@ void ViewportLink::showMode(const std::shared_ptr<const harmonic::HarmonicBalanc
   viewport_.setSelectedNode(session_.node());
   viewport_.setCaption(document_.title() + '\n' + caption);
   viewport_.play();
+}
+
+void ViewportLink::showDesign(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
+                              const harmonic::Vector& z, const QString& caption) {
+  if (!drawn_ || !looksAlike(problem->model(), *drawn_)) {
+    drawn_ = std::make_shared<const mechanics::Model>(problem->model());
+    viewport_.setModel(drawn_);
+  }
+  viewport_.clearPrediction();
+  viewport_.setStale(false);
+  showMode(problem, z, caption);
 }
 
 void ViewportLink::showPrediction() {

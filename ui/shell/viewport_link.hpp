@@ -20,6 +20,9 @@ class ViewportLink final : public QObject {
   /// A linear mode, until the session shows something else.
   void showMode(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const harmonic::Vector& z,
                 const QString& caption);
+  /// The motion of a design, whose shape at rest may be another one than the document's, until something else is shown.
+  void showDesign(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const harmonic::Vector& z,
+                  const QString& caption);
 
  private:
   void showModel();

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/scene/design_result.hpp"
+#include "core/scene/scene.hpp"
+
+namespace pliant::scene {
+
+/// `scene`, as JSON, with the values that a design of it gives to its parameters. Throws base::InputError if the scene
+/// has changed so that a parameter has no place in it.
+Json designedScene(const Scene& scene, const DesignResult& result, const harmonic::DesignIterate& design);
+
+}  // namespace pliant::scene
