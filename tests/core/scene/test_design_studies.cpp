@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/csv_table.hpp"
 #include "core/scene/design_result.hpp"
+#include "core/scene/designed_scene.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/study.hpp"
@@ -85,6 +86,7 @@ class TestDesignStudies : public QObject {
   void readsTargetPathsFromFiles();
   void writesItsTables();
   void showsEveryDesign();
+  void designsAreTakenIntoTheScene();
   void refusesWrongInput_data();
   void refusesWrongInput();
 };
@@ -210,6 +212,29 @@ void TestDesignStudies::showsEveryDesign() {
     const auto& point = motion->points[0];
     QVERIFY(motion->problem->residual(point.z, point.omega).norm() < 1e-8);
     QCOMPARE(point.amplitudes.size(), std::size_t(2));
+  }
+}
+
+/// With stiffness factors that the scene does not write out, too.
+void TestDesignStudies::designsAreTakenIntoTheScene() {
+  Json json = Json::parse(text);
+  json["elements"][0].erase("stiffness_factors");
+  json["studies"][0].erase("parameters");
+  json["studies"][0]["stiffness_factors"] = Json::parse(R"([{"element": "skin"}])");
+  json["studies"][0]["parameters"] = {"mass", "stiffness"};
+  json["studies"].push_back(
+      Json::parse(R"({"name": "motion", "type": "periodic_motion", "frequency": 1.2, "harmonics": 3, "samples": 16})"));
+  const Scene scene = Scene::parse(json.dump(), "/nowhere", "test.json");
+  base::ExecutionContext context;
+  const auto result = std::dynamic_pointer_cast<const DesignResult>(
+      scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), "design")->run(context));
+  QVERIFY(result && result->design.history.size() > 2);
+  for (const harmonic::DesignIterate* design : {&result->before(), &result->after()}) {
+    const Scene taken = Scene::parse(scene::designedScene(scene, *result, *design).dump(), "/nowhere", "taken.json");
+    const Json motion =
+        scene::StudyRegistry::instance().make(taken, scene::buildModel(taken), "motion")->run(context)->summary();
+    for (std::size_t i = 0; i < 2; ++i)
+      QVERIFY(std::abs(motion["probes"][i]["path_length"].get<double>() / design->amplitudes[i].pathLength - 1) < 1e-6);
   }
 }
 
