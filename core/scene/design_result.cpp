@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/scene/csv.hpp"
+#include "core/scene/harmonic_names.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/result_folder.hpp"
 #include "core/scene/run_information.hpp"
@@ -162,7 +163,12 @@ std::shared_ptr<HarmonicResult> DesignResult::motionOf(const DesignIterate& iter
 }
 
 std::vector<std::string> DesignResult::warnings() const {
-  return design.history.empty() ? std::vector<std::string>() : motionOf(after())->warnings();
+  if (design.history.empty()) return {};
+  std::vector<std::string> sentences = motionOf(after())->warnings();
+  if (stability.state == harmonic::StabilityState::unstable)
+    sentences.emplace_back(
+        "The last design's motion is unstable: small disturbances grow, so the real thing will move otherwise.");
+  return sentences;
 }
 
 Json DesignResult::summary() const {
@@ -176,6 +182,7 @@ Json DesignResult::summary() const {
     json["objective_before"] = before().objective;
     json["objective"] = after().objective;
     json["projected_gradient"] = after().projectedGradient;
+    json["stability"] = nameOf(stability.state);
     json["probes"] = probesOf(*this);
     if (!paths.empty()) json["paths"] = pathsOf(*this);
     Json list = Json::array();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/harmonic/floquet_stability.hpp"
 #include "core/harmonic/inverse_design.hpp"
 #include "core/scene/study.hpp"
 
@@ -13,7 +14,7 @@ class DesignResult final : public Result {
   /// summary.json, history.csv (a row a design), parameters.csv, trajectories.csv (of the probes, before and after, and
   /// of the target paths in phase with what came of them).
   void write(const std::filesystem::path& directory) const override;
-  /// Of the last design's motion.
+  /// Of the last design's motion, also if it is unstable.
   std::vector<std::string> warnings() const override;
 
   /// The motion of a design, as the study "periodic_motion" gives it, without its stability and sensitivities.
@@ -24,6 +25,7 @@ class DesignResult final : public Result {
   /// shorter than the way while the study runs.
   harmonic::InverseDesignResult design;
 
+  harmonic::Stability stability;  ///< of the last design's motion; unknown if not asked for
   double omega = 0;
   int harmonics = 0;
   int samples = 0;

@@ -77,13 +77,15 @@ std::vector<base::ParameterSpec> designKeys() {
                     1, 1000)),
       list("objectives", "What is to be reached; several are summed up.", objectives(), 1, 1000),
       withDefault(integer("iterations", "", "Iterations of the optimiser.", 0, 100'000), 200),
-      positiveNumber("objective_tolerance", "",
-                     "The design counts as best if two iterations improve the objective by less each, relative to itself.",
-                     1e-6),
+      positiveNumber(
+          "objective_tolerance", "",
+          "The design counts as best if two iterations improve the objective by less each, relative to itself.", 1e-6),
       positiveNumber("gradient_tolerance", "",
                      "It also does where the gradient that the bounds leave has fallen to this fraction of the first "
                      "one.",
                      1e-5),
+      withDefault(
+          choice("stability", "Whether to find the stability of the last design's motion.", {"on", "off"}), "on"),
       positiveNumber("first_step", "", "Largest first change of a parameter, relative to its range.", 0.1),
       positiveNumber("largest_step", "", "Largest change in an iteration, relative to its range.", 0.3)};
 }

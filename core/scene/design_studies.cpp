@@ -229,6 +229,10 @@ class DesignStudy final : public Study {
     result->design = harmonic::designInversely(std::move(problem), *objective_, designOptions(), context, onIterate);
     result->termination = result->design.report.termination;
     result->message = result->design.report.message;
+    if (options_["stability"] == "on" && !result->design.history.empty() && !context.cancelRequested()) {
+      const auto last = result->motionOf(result->after());
+      result->stability = harmonic::floquetStability(*last->problem, result->after().z, result->omega);
+    }
     result->seconds = watch.seconds();
     if (observe) observe(result);
     return result;

@@ -103,6 +103,8 @@ void TestDesignStudies::findsTheResonance() {
   QVERIFY(std::abs(summary["parameters"][0]["value"].get<double>() - best) < 1e-4);
   QCOMPARE(summary["parameters"][0]["before"].get<double>(), 2.0);
   QCOMPARE(summary["parameter_count"].get<int>(), 1);
+  QCOMPARE(summary["stability"].get<std::string>(), std::string("stable"));
+  QVERIFY(summary["warnings"].empty());
   QVERIFY(summary["iterations"].get<int>() > 0 && summary["solves"] >= summary["evaluations"]);
   QVERIFY(summary["objective"].get<double>() < summary["objective_before"].get<double>());
 }
