@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <unsupported/Eigen/BVH>
 
 #include "core/base/error.hpp"
+#include "core/geometry/triangle_intersection.hpp"
 
 namespace pliant::geometry {
 
@@ -14,6 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Tree = Eigen::KdBVH<double, 3, int>;
+
+/// So often is a mesh that cuts itself made anew of smaller cells, and so often smoothed.
+constexpr int mostAttempts = 4, mostSmoothings = 8;
 
 Vector3d directionOf(const Vector3d& vector) {
   const double length = vector.norm();
@@ -167,6 +172,34 @@ class WireBody {
   Tree tree_;
 };
 
+/// Where wires part at an acute angle their walls can be nearer than a cell, and their triangles get mixed up: points
+/// there go towards the middle of their neighbours. Whether no triangles cross in the end.
+bool untangle(SurfaceMesh& mesh) {
+  std::vector<std::vector<int>> neighbours;
+  for (int pass = 0; pass <= mostSmoothings; ++pass) {
+    const auto crossings = findIntersections(mesh.points, mesh.triangles);
+    if (crossings.empty()) return true;
+    if (neighbours.empty()) {
+      neighbours.resize(static_cast<std::size_t>(mesh.points.cols()));
+      for (const auto& [a, b, c] : mesh.triangles)  // each neighbour once, since each edge has two triangles
+        neighbours[a].push_back(b), neighbours[b].push_back(c), neighbours[c].push_back(a);
+    }
+    std::set<int> moved;
+    for (const auto& [edge, triangle] : crossings) {
+      moved.insert(edge.begin(), edge.end());
+      moved.insert(triangle.begin(), triangle.end());
+    }
+    for (const int point : std::set<int>(moved)) moved.insert(neighbours[point].begin(), neighbours[point].end());
+    const Eigen::Matrix3Xd before = mesh.points;
+    for (const int point : moved) {
+      Vector3d middle = Vector3d::Zero();
+      for (const int other : neighbours[point]) middle += before.col(other);
+      mesh.points.col(point) = 0.5 * (before.col(point) + middle / static_cast<double>(neighbours[point].size()));
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void findStrands(std::vector<WirePiece>& pieces) {
@@ -243,16 +276,19 @@ std::optional<BodyMesh> meshWires(const std::vector<WirePiece>& pieces, const st
   for (const BallSocket& socket : sockets) smallest = std::min({smallest, 0.5 * socket.wall, socket.radius});
   if (!(smallest > 0 && tolerance > 0))
     throw base::InputError("", "the radii of wires and sockets and the tolerance must be above 0");
-  const WireBody body(pieces, sockets, 0.5 * smallestWire);
+  const WireBody body(pieces, sockets, smallestWire);
   // Chords between the points of a cell's size are near the tolerance for the thinnest part.
-  const double cell = std::min(0.5 * smallest, std::sqrt(6 * smallest * tolerance));
+  double cell = std::min(0.5 * smallest, std::sqrt(6 * smallest * tolerance));
   struct Cancelled {};
   const auto distance = [&](const Vector3d& place) {
     if (context.cancelRequested()) throw Cancelled{};
     return body.at(place);
   };
   try {
-    return meshBody(distance, body.box(), cell, tolerance);
+    for (int attempt = 1;; ++attempt, cell *= 0.7) {
+      BodyMesh made = meshBody(distance, body.box(), cell, tolerance);
+      if (untangle(made.mesh) || attempt == mostAttempts) return made;
+    }
   } catch (const Cancelled&) {
     return std::nullopt;
   }

@@ -39,10 +39,11 @@ inline constexpr double socketOpening = 70 * 3.14159265358979323846 / 180;
 Eigen::Vector3d openDirection(const std::vector<WirePiece>& pieces, const Eigen::Vector3d& centre, double radius);
 
 /// The closed surface of wires and sockets together, less the insides of the sockets (meshBody). Where strands meet
-/// each other or a socket, distances a and b are blended to min(a, b) - max(k - |a - b|, 0)²/(4k) with k half of the
-/// smallest rounding (Quilez, "Smooth minimum"), which rounds the corner and nowhere adds more than k/4 for each strand
-/// that meets another. None once cancelled. Throws base::InputError (location empty) if a size is not above 0, there is
-/// no piece, or the mesh would be too fine.
+/// each other or a socket, distances a and b are blended to min(a, b) - max(k - |a - b|, 0)²/(4k) with k the smallest
+/// rounding (Quilez, "Smooth minimum"), which rounds the corner and nowhere adds more than k/4 for each strand that
+/// meets another. Where triangles cross between walls at acute angles the mesh is smoothed, beyond the tolerance if
+/// need be, or made of smaller cells; checkSolid finds those that still cross. None once cancelled. Throws
+/// base::InputError (location empty) if a size is not above 0, there is no piece, or the mesh would be too fine.
 std::optional<BodyMesh> meshWires(const std::vector<WirePiece>& pieces, const std::vector<BallSocket>& sockets,
                                   double tolerance, const base::ExecutionContext& context);
 

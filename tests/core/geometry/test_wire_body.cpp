@@ -98,7 +98,21 @@ class TestWireBody : public QObject {
     for (Eigen::Index i = 0; i < body.mesh.points.cols(); ++i) {
       double nearest = 1e300;
       for (const WirePiece& piece : pieces) nearest = std::min(nearest, distanceFrom(piece, body.mesh.points.col(i)));
-      QVERIFY(nearest > -tolerance && nearest < 3 * 0.25 * 0.25 + tolerance);
+      QVERIFY(nearest > -tolerance && nearest < 3 * 0.25 * 0.5 + tolerance);
+    }
+  }
+
+  /// Walls that part at sharp angles: the mesh does not cut itself, and holds what the wires hold.
+  void acuteAngles() {
+    for (const double degrees : {8.0, 13.0, 21.0, 34.0}) {
+      const double angle = degrees * pi / 180;
+      const Vector3d tip(0, 0, 0), straight(7, 0, 0), bent = 7 * Vector3d(std::cos(angle), std::sin(angle), 0.1);
+      const std::vector<WirePiece> pieces{wire(tip, straight), wire(tip, bent), wire(tip, {4, -0.6, 1.5})};
+      const BodyMesh body = made(pieces);
+      checkSolid(body.mesh);
+      QCOMPARE(genusOf(body.mesh), 0);
+      for (Eigen::Index i = 0; i < body.mesh.points.cols(); ++i)
+        for (const WirePiece& piece : pieces) QVERIFY(distanceFrom(piece, body.mesh.points.col(i)) > -5 * tolerance);
     }
   }
 
