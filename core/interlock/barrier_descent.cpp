@@ -17,6 +17,9 @@ using Eigen::VectorXd;
 /// many steps to recover.
 constexpr double keptGap = 0.1;
 
+/// With friction barriers get no lighter than this, over what balances all that pulls at the final gap.
+constexpr double lightestOfDrag = 1e-4;
+
 /// Of the barrier's range: parts that were farther apart come as near as this in one step.
 constexpr double withinRange = 0.3;
 
@@ -125,12 +128,14 @@ CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
   if (thin_) barrier.range *= std::min(1.0, options.rangeRatio * firstGap);
   Outcome outcome = Outcome::minimum;
   double predicted = std::numeric_limits<double>::infinity();
+  // While it is the drag of friction that holds the structure, contacts push little, and are not near.
+  const double lightest = friction_ ? lightestOfDrag * weightFor(finalGap) : 0;
   while (true) {
-    const bool last = predicted <= finalGap;
+    const bool light = barrier.weight <= lightest, last = predicted <= finalGap || light;
     outcome = minimize(barrier, last ? 1e-4 : options.looseTolerance, options.maximumIterations);
     measure(barrier, result);
     if (outcome != Outcome::minimum && outcome != Outcome::noProgress) break;
-    if (last && (result.meanGap <= finalGap || outcome == Outcome::noProgress)) break;
+    if (last && (result.meanGap <= finalGap || light || outcome == Outcome::noProgress)) break;
     if (result.contacts.empty() && barrier.range <= options.rangeRatio * finalGap) break;
     // Force times gap is the weight near contact, so that gaps shrink as it does.
     const double gap = result.meanGap > 0 ? result.meanGap : barrier.range / options.rangeRatio;

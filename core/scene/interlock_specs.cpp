@@ -157,8 +157,8 @@ std::vector<ParameterSpec> interlockingCellSpecs() {
       cell("ring_net", "Flat rings on a square lattice, joined by upright ones.",
            {ringRadius("4 mm"), wireRadius("0.6 mm"), spacing("12 mm"), aspect()}),
       cell("composed",
-           "Any material: elements of shapes made of closed curves, points, segments and triangles, on a lattice, with "
-           "the links that they are meant to have.",
+           "Any material: elements of shapes made of closed curves, points, segments, triangles and meshes read from "
+           "files, on a lattice, with the links that they are meant to have.",
            composedCellKeys())};
 }
 

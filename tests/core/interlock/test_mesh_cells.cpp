@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/closed_mesh.hpp"
+#include "core/interlock/cell_inspection.hpp"
 #include "core/interlock/deformation_test.hpp"
 #include "core/interlock/element_body.hpp"
 #include "core/interlock/element_families.hpp"
@@ -155,6 +156,39 @@ class TestMeshCells : public QObject {
                  qPrintable(faultAt({2, 2, 2})));
         QVERIFY(faultAt({2, 2, -0.05}).contains("overlap"));
       }
+  }
+
+  /// An editor's inspection finds what checkCell does, and where surfaces are nearest.
+  void inspection() {
+    UnitCell cell;
+    cell.lattice = 100 * Eigen::Matrix2d::Identity();
+    cell.shapes = {{"body", {dilatedMesh(tetrahedron(1), 0)}}};
+    cell.elements = {{0, Vector3d::Zero(), Eigen::Matrix3d::Identity()},
+                     {0, Vector3d(0.1, 0.1, -1.25), Eigen::Matrix3d::Identity()}};
+    const CellInspection apart = inspectCell(cell);
+    QCOMPARE(QString(apart.fault.c_str()), QString());
+    QVERIFY(apart.nearest && std::abs(apart.nearest->gap - 0.25) < 1e-12);
+    QVERIFY((apart.nearest->place - Vector3d(0.1, 0.1, -0.125)).norm() < 1e-12);
+    cell.elements[1].position.z() = -0.9;
+    QCOMPARE(QString(inspectCell(cell).fault.c_str()), QString("Elements 1 and 2 overlap."));
+  }
+
+  /// A dilated mesh is solid, as the formula of Steiner (1840) has it: V + A r + M r² + 4/3 π r³, with M = π times the
+  /// sum of a box's three lengths.
+  void dilatedMeshIsSolid() {
+    geometry::SurfaceMesh box;
+    box.points.resize(3, 8);
+    for (int i = 0; i < 8; ++i) box.points.col(i) = Vector3d(i & 1 ? 3 : 0, i & 2 ? 2 : 0, i & 4 ? 4 : 0);
+    box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    const double r = 0.5, exact = 24 + 52 * r + std::numbers::pi * 9 * r * r + 4.0 / 3 * std::numbers::pi * r * r * r;
+    const ElementShape shape{"box", {dilatedMesh(box, r)}};
+    checkShape(shape);
+    const ElementBody body(shape);
+    QVERIFY(std::abs(body.at({1.5, 0.4, 1}).distance + 0.9) < 1e-12);
+    QVERIFY(std::abs(body.at({1.5, -0.7, 1}).distance - 0.2) < 1e-12);
+    const double volume = geometry::enclosedVolume(body.mesh(0.01).mesh);
+    QVERIFY2(volume < exact && volume > 0.99 * exact, qPrintable(QString("%1 of %2").arg(volume).arg(exact)));
   }
 
   /// Rings with n sections of m corners, a flat side innermost, whose holes are R - r cos(π/m) at their corners: at

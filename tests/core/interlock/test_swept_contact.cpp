@@ -8,6 +8,7 @@
 #include "core/interlock/cell_equilibrium.hpp"
 #include "core/interlock/element_families.hpp"
 #include "core/interlock/linking_number.hpp"
+#include "core/interlock/patch_equilibrium.hpp"
 #include "core/interlock/swept_contact.hpp"
 #include "core/math/parallel.hpp"
 #include "tests/core/interlock/link_oracles.hpp"
@@ -173,7 +174,7 @@ class TestSweptContact : public QObject {
   /// Random motions of linked meshes, many times longer than their gaps, one after the other: no surfaces meet on any
   /// of the ways.
   void randomMotions() {
-    constexpr int walks = 9, steps = 6, samples = 5;
+    constexpr int walks = 9, steps = 4, samples = 5;
     const std::vector<UnitCell> cells = {meshed(fourInOne()), meshed(ringNet()), meshed(threefold())};
     std::vector<int> met(walks), stopped(walks);
     pliant::math::parallelFor(walks, [&](int k) {
@@ -195,6 +196,27 @@ class TestSweptContact : public QObject {
     });
     for (int k = 0; k < walks; ++k) QVERIFY2(!met[k], qPrintable(QString("walk %1").arg(k)));
     QVERIFY(*std::min_element(stopped.begin(), stopped.end()) > 0);
+  }
+
+  /// On a paraboloid, where ways are curved, a patch of meshes is bent until it locks or folds.
+  void bentPatch() {
+    PatchOutline outline;
+    outline.kind = PatchOutline::Kind::circle;
+    outline.radius = 11e-3;
+    const UnitCell patch = cutPatch(meshed(ringNet()), outline);
+    EquilibriumOptions options;
+    options.finalGap = 1e-2;
+    options.maximumIterations = 100;
+    const PatchSolver solver(patch, options);
+    StrainDrive drive;
+    drive.directions = drive.load = Vector3d(1, 0.4, 0.2).normalized();
+    const CellEquilibrium rest = solver.bend(solver.perturbed(restState(patch), 0.1, 3), drive);
+    QVERIFY(rest.state.strain.norm() > 10);
+    QVERIFY(rest.message.find("link") == std::string::npos);
+    for (int a = 0; a < static_cast<int>(patch.elements.size()); ++a)
+      for (int b = 0; b < a; ++b)
+        QVERIFY(!cross(trianglesOf(patch, rest.state, a, rest.state.positions.col(a)),
+                       trianglesOf(patch, rest.state, b, rest.state.positions.col(b))));
   }
 
   /// Pulls far outside the limits of meshes: no surfaces meet in the end, and the circles within are linked as at rest
