@@ -64,8 +64,6 @@ void checkClosed(const SurfaceMesh& mesh) {
 
 void checkSolid(const SurfaceMesh& mesh) {
   checkClosed(mesh);
-  if (const int count = countSurfaces(mesh); count > 1)
-    throw base::InputError("", "the mesh falls into " + std::to_string(count) + " separate surfaces, but must be one");
   if (!(enclosedVolume(mesh) > 0))
     throw base::InputError("", "the triangles of the mesh face inwards, but must face outwards");
   const auto meets = findIntersections(mesh.points, mesh.triangles);
@@ -76,6 +74,13 @@ void checkSolid(const SurfaceMesh& mesh) {
                                    std::to_string(triangle[0]) + ", " + std::to_string(triangle[1]) + " and " +
                                    std::to_string(triangle[2]));
   }
+}
+
+void checkOneSolid(const SurfaceMesh& mesh) {
+  checkClosed(mesh);
+  if (const int count = countSurfaces(mesh); count > 1)
+    throw base::InputError("", "the mesh falls into " + std::to_string(count) + " separate surfaces, but must be one");
+  checkSolid(mesh);
 }
 
 double enclosedVolume(const SurfaceMesh& mesh) {

@@ -9,9 +9,12 @@ namespace pliant::geometry {
 /// form one fan.
 void checkClosed(const SurfaceMesh& mesh);
 
-/// The same, and that it is the surface of one solid body: one connected surface, with its triangles facing outwards
-/// (counterclockwise seen from there), that does not run into itself.
+/// The same, and that it is what a printer can make: triangles face outwards (counterclockwise seen from there), and
+/// none meets another that it has no corner in common with.
 void checkSolid(const SurfaceMesh& mesh);
+
+/// The same, and that it is one connected surface.
+void checkOneSolid(const SurfaceMesh& mesh);
 
 /// What a closed mesh encloses [m³]; negative if its normals point inwards.
 double enclosedVolume(const SurfaceMesh& mesh);

@@ -6,9 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/orientation.hpp"
-#include "core/geometry/triangle_intersection.hpp"
 
 namespace pliant::geometry {
 
@@ -116,14 +114,6 @@ SurfaceMesh thickenSurface(const SurfaceMesh& middle, const std::vector<double>&
     solid.triangles.push_back({to, from + below, to + below});
   }
   return solid;
-}
-
-void checkSolid(const SurfaceMesh& mesh) {
-  checkClosed(mesh);
-  if (!(enclosedVolume(mesh) > 0)) throw base::InputError("", "the normals of the body point inwards");
-  const auto crossings = findIntersections(mesh.points, mesh.triangles);
-  if (!crossings.empty())
-    throw base::InputError("", "the body cuts itself near " + placeText(mesh.points.col(crossings.front().edge[0])));
 }
 
 }  // namespace pliant::geometry

@@ -16,8 +16,4 @@ SurfaceMesh thickenSurface(const SurfaceMesh& middle, const std::vector<double>&
 /// The points that triangles have, in their order, and the triangles of these; no groups and textures.
 SurfaceMesh withoutLoosePoints(const SurfaceMesh& mesh);
 
-/// Throws base::InputError (location empty) with a sentence unless the mesh is what a printer can make: closed
-/// (checkClosed), its normals outwards, and nowhere does a triangle meet one that it has no corner in common with.
-void checkSolid(const SurfaceMesh& mesh);
-
 }  // namespace pliant::geometry

@@ -144,7 +144,7 @@ void checkShape(const ElementShape& shape) {
       checkSimplices(shape, i, std::get<SimplexSet>(piece.core));
     if (isBody) {
       try {
-        geometry::checkSolid(meshOf(std::get<SimplexSet>(piece.core)));
+        geometry::checkOneSolid(meshOf(std::get<SimplexSet>(piece.core)));
       } catch (const base::InputError& error) {
         failPiece(shape, i, "is not the surface of a body: " + error.problem());
       }

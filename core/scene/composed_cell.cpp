@@ -62,7 +62,7 @@ interlock::DilatedPiece pieceFrom(const Json& entry, const std::string& pointer,
     geometry::SurfaceMesh mesh = locate(pointer + "/file", [&] {
       geometry::SurfaceMesh welded =
           weldedMesh(directory / std::filesystem::path(entry["file"].get<std::string>()), entry["scale"]);
-      geometry::checkSolid(welded);
+      geometry::checkOneSolid(welded);
       return welded;
     });
     mesh.points = (rotationFrom(entry, pointer) * mesh.points).colwise() + tripleFrom(entry["center"]);

@@ -153,7 +153,8 @@ class TestThickSurface : public QObject {
     both.points.rightCols(count) = box.points.colwise() + Vector3d(0.4, 0.3, 0.2);
     for (const auto& [a, b, c] : box.triangles) both.triangles.push_back({a + count, b + count, c + count});
     checkClosed(both);
-    QVERIFY(refusalOf([&] { checkSolid(both); }).find("cuts itself near (") != std::string::npos);
+    QVERIFY(refusalOf([&] { checkSolid(both); }).find("runs into itself: the edge between points") !=
+            std::string::npos);
     // A surface that bends more sharply than its thickness allows does the same.
     const SurfaceMesh tight = bentStrip(6, 0.05, pi / 6);
     QVERIFY(!refusalOf([&] { checkSolid(thickenSurface(tight, evenly(tight, 0.4))); }).empty());
