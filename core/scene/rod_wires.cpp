@@ -140,7 +140,8 @@ std::vector<Part> rodWires(const PartsSource& source, const PartsRequest& reques
                                       " pieces; they need to be smaller, or farther apart.");
     parts.push_back({wire.name, std::move(body->mesh)});
     if (!sockets.empty())
-      remarks.push_back(wire.name + " has " + std::to_string(sockets.size()) + " sockets for balls.");
+      remarks.push_back(wire.name + " has " + std::to_string(sockets.size()) +
+                        (sockets.size() == 1 ? " socket for a ball." : " sockets for balls."));
   }
   return parts;
 }

@@ -199,7 +199,7 @@ class TestPartsExport : public QObject {
     QVERIFY(near(points.row(0).minCoeff(), -1e-3, 5e-5));
     // It opens away from the wire.
     QVERIFY(near(points.row(0).maxCoeff(), 0.03 + (radius + 0.7e-3) * std::cos(70 * pi / 180) + 0.5e-3, 5e-5));
-    QCOMPARE(made.remarks, std::vector<std::string>{"wire has 1 sockets for balls."});
+    QCOMPARE(made.remarks, std::vector<std::string>{"wire has 1 socket for a ball."});
     // What is hardly thicker than the wire has none.
     const Made thick = make(wireScene(R"({"name": "wire", "type": "rod", "diameter": "7 mm"})"), request);
     QVERIFY(thick.remarks.front().find("has no socket") != std::string::npos);
