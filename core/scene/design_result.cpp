@@ -15,7 +15,7 @@ using mechanics::Matrix;
 
 namespace {
 
-constexpr std::string_view axisNames = "xyz";
+constexpr std::string_view coordinateLetters = "xyz";
 
 /// A design parameter and its values before and after.
 struct DesignedParameter {
@@ -135,7 +135,7 @@ std::string designTrajectoryTable(const DesignResult& result) {
   csv.add("sample").add("omega t [rad]");
   for (const NamedPath& path : paths)
     for (Eigen::Index axis = 0; axis < path.positions.cols(); ++axis)
-      csv.add(path.name + " " + axisNames[static_cast<std::size_t>(axis)] + " [m]");
+      csv.add(path.name + " " + coordinateLetters[static_cast<std::size_t>(axis)] + " [m]");
   csv.endRow();
   for (int sample = 0; sample < result.samples; ++sample) {
     csv.add(sample).add(2 * std::numbers::pi * sample / result.samples);

@@ -9,7 +9,7 @@ namespace dimensions = base::dimensions;
 
 namespace {
 
-constexpr int longest = 1'000'000;
+constexpr int longestDesignList = 1'000'000;
 
 ParameterSpec positiveNumber(std::string key, std::string symbol, std::string description, double value) {
   return withDefault(
@@ -29,7 +29,7 @@ ParameterSpec objectives() {
               optional(list("points",
                             "Places that it passes at even steps of time, in order; the first follows the "
                             "last.",
-                            vector("", "A place.", dimensions::length), 3, longest)),
+                            vector("", "A place.", dimensions::length), 3, longestDesignList)),
               file});
   path.exactlyOne = {"points", "file"};
   return variant(
@@ -64,7 +64,7 @@ std::vector<base::ParameterSpec> designKeys() {
       optional(list("parameters",
                     "Names of point masses and of entries of \"parameters\" that may change within their bounds; all "
                     "if neither these nor \"stiffness_factors\" are given.",
-                    text("", "A name."), 1, longest)),
+                    text("", "A name."), 1, longestDesignList)),
       optional(list("stiffness_factors", "Young's modulus of each triangle or tetrahedron may change.",
                     object("stiffness_factor", "Factors of the elements of one entry.",
                            {reference("element", "A membrane or solid.", "elements"),

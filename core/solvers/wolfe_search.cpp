@@ -7,17 +7,17 @@ namespace pliant::solvers {
 
 namespace {
 
-constexpr double decrease = 1e-4;
+constexpr double sufficientDescent = 1e-4;
 constexpr double flattening = 0.9;
 constexpr int mostEvaluations = 30;
 
-struct Point {
+struct StepPoint {
   double step;
   LineValue at;
 };
 
 /// Where the cubic through two values and slopes is least, kept a tenth of the bracket away from its ends.
-double interpolate(const Point& a, const Point& b) {
+double interpolate(const StepPoint& a, const StepPoint& b) {
   const double width = b.step - a.step;
   const double d1 = a.at.slope + b.at.slope - 3 * (a.at.value - b.at.value) / (a.step - b.step);
   const double d2 = std::sqrt(d1 * d1 - a.at.slope * b.at.slope) * (width > 0 ? 1 : -1);
@@ -32,11 +32,13 @@ double interpolate(const Point& a, const Point& b) {
 
 std::optional<double> searchWolfe(const std::function<std::optional<LineValue>(double)>& evaluate, LineValue start,
                                   double first, double longest) {
-  const auto isLow = [&](const Point& p) { return p.at.value <= start.value + decrease * p.step * start.slope; };
-  const auto isFlat = [&](const Point& p) { return std::abs(p.at.slope) <= flattening * std::abs(start.slope); };
-  Point low{0, start};        // the best step so far that fulfils the first condition
-  std::optional<Point> high;  // the other end of the bracket, once there is one; its value may be missing
-  double edge = longest;      // no step from here on has a value
+  const auto isLow = [&](const StepPoint& p) {
+    return p.at.value <= start.value + sufficientDescent * p.step * start.slope;
+  };
+  const auto isFlat = [&](const StepPoint& p) { return std::abs(p.at.slope) <= flattening * std::abs(start.slope); };
+  StepPoint low{0, start};        // the best step so far that fulfils the first condition
+  std::optional<StepPoint> high;  // the other end of the bracket, once there is one; its value may be missing
+  double edge = longest;          // no step from here on has a value
   bool edgeHasValue = true;
   double step = std::min(first, longest), last = 0;
   for (int count = 0; count < mostEvaluations; ++count) {
@@ -50,7 +52,7 @@ std::optional<double> searchWolfe(const std::function<std::optional<LineValue>(d
       if (edge - low.step < 1e-3 * edge || step < 1e-10 * first) break;
       continue;
     }
-    const Point trial{step, *value};
+    const StepPoint trial{step, *value};
     if (!isLow(trial) || (low.step > 0 && trial.at.value >= low.at.value)) {
       high = trial;
     } else if (isFlat(trial)) {

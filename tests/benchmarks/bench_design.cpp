@@ -19,12 +19,10 @@ struct Example {
   int freedoms, harmonics, samples, parameters, iterations;
   double seconds;
 };
-constexpr Example examples[] = {{"dragon", "dragon", 780, 8, 64, 3, 12, 1098.09},
-                                {"three-link", "three_link", 8, 8, 64, 16, 146, 34.89},
-                                {"ostrich", "ostrich_leg", 14, 14, 64, 7, 128, 163.98},
-                                {"fish", "fish", 187, 8, 64, 3, 46, 456.96},
-                                {"solid", "t_solid", 918, 8, 64, 7, 10, 7926.43},
-                                {"eiffel", "eiffel", 658, 8, 64, 525, 150, 5534.82}};
+constexpr Example examples[] = {
+    {"dragon", "dragon", 780, 8, 64, 3, 12, 1098.09},       {"three-link", "three_link", 8, 8, 64, 16, 146, 34.89},
+    {"ostrich", "ostrich_leg", 14, 14, 64, 7, 128, 163.98}, {"fish", "fish", 187, 8, 64, 3, 46, 456.96},
+    {"solid", "t_solid", 918, 8, 64, 7, 10, 7926.43},       {"eiffel", "eiffel", 658, 8, 64, 525, 150, 5534.82}};
 
 /// What the design has reached: path errors, or the gain of the first probe.
 std::string reached(const Json& summary) {
