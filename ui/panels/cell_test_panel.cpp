@@ -41,7 +41,7 @@ QString degrees(const scene::Json& options) {
 /// "stretch at 0°, free across", from the study's normalised entry.
 QString loadText(const scene::Json& options) {
   const std::string type = options.value("type", "");
-  if (type == "gravity_bending") return QObject::tr("weight, clamped towards %1°").arg(degrees(options));
+  if (type == "gravity_bending") return QObject::tr("weight, free towards %1°").arg(degrees(options));
   const bool bends = type == "bending_test";
   const QString load = QString::fromStdString(bends ? options.value("bend", "up") : options.value("load", "stretch"));
   return (bends ? QObject::tr("bend %1 at %2°, %3 across") : QObject::tr("%1 at %2°, %3 across"))
