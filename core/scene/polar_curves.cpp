@@ -42,6 +42,7 @@ PolarCurves curvatureLimitCurves(const CurvatureLimitsResult& result) {
     const double sign = member == &interlock::BendingLimits::up ? 1 : -1;
     PolarCurve along{std::string("bent ") + side, {}, {}, {}, true, false};
     PolarCurve across{std::string("across, bent ") + side, {}, {}, {}, true, true};
+    along.width = across.width = sign > 0 ? 1.8 : 0.8;
     for (const interlock::BendingLimits& direction : result.directions) {
       const interlock::BendingLimit& limit = direction.*member;
       const bool locked = limit.kind == interlock::BendingKind::locked;

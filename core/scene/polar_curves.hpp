@@ -15,6 +15,7 @@ struct PolarCurve {
   std::vector<double> uncertain;  ///< how far a value may be off, as known; empty: not told
   bool halfTurn = true;           ///< the same in opposite directions
   bool dashed = false;
+  double width = 1;  ///< of its line, relative: where curves coincide the wider one is seen beside the other
 };
 
 /// Curves with one unit, such as deformation limits (thesis Figs. 4.6, 4.7): limits of stretch and of compression, or

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/interlock/element_families.hpp"
+#include "core/interlock/patch.hpp"
 #include "tests/screenshots/screenshot.hpp"
 #include "tests/ui/render/ellipsoid_boundary.hpp"
 #include "ui/plots/polar_plot.hpp"
@@ -48,6 +49,60 @@ QImage drawLimit(double place) {
   contact.place = {place, 0, 0};
   configuration->contacts = {contact};
   return asImage(render::drawConfiguration(configuration, options(false)));
+}
+
+/// A patch at rest, with a paraboloid and marks; nothing is computed, so that the picture is the same everywhere.
+QImage drawPatch(double curvature, bool dark) {
+  auto configuration = std::make_shared<render::PatchConfiguration>();
+  auto patch = std::make_shared<interlock::UnitCell>(
+      interlock::cutPatch(interlock::threefold(), {interlock::PatchOutline::Kind::circle, {0, 0}, 0.03, {0, 0}}));
+  configuration->patch = patch;
+  configuration->state = interlock::restState(*patch);
+  configuration->clamped = {0, 1, 2};
+  configuration->gravity = Eigen::Vector3d(0, 0, -9.81);
+  configuration->curvature = Eigen::Vector3d(curvature, -6, 4);
+  interlock::CellContactForce contact{};
+  contact.place = {0.01, 0.005, 0.002};
+  configuration->contacts = {contact};
+  contact.place = {-0.012, 0.001, 0.001};
+  configuration->contacts.push_back(contact);
+  render::PictureOptions made = options(dark);
+  made.caption = "Threefold chain mail\nbend:  18.00 1/m at 0°,  radius 55.56 mm,  across 6 1/m\nheld at 2 places";
+  return asImage(render::drawPatch(configuration, made));
+}
+
+QImage drawCurvatureBoundary(double slice) {
+  render::BoundaryScenery scenery;
+  auto surface = std::make_shared<scene::BoundarySurface>(*render::ellipsoidBoundary({70, 50, 30}, {-20, -15, 5}));
+  surface->space = scene::curvatureSpace();
+  scenery.surface = surface;
+  scenery.style.sliceAxis = 0;
+  scenery.style.slicePosition = slice;
+  scenery.style.opacity = 0.8;
+  return asImage(render::drawBoundary(scenery, options(false)));
+}
+
+/// Limits of curvature up and down, as from a study that has not ended: some are not known.
+QImage drawCurvatures(double limit, bool dark) {
+  shell::applyTheme(dark ? shell::Theme::dark : shell::Theme::light);
+  scene::CurvatureLimitsResult result;
+  for (int i = 0; i < 12; ++i) {
+    interlock::BendingLimits& limits = result.directions.emplace_back();
+    for (interlock::BendingLimit* each : {&limits.up, &limits.down}) {
+      const double sign = each == &limits.up ? 1 : -1;
+      each->angle = i * std::numbers::pi / 12;
+      each->kind = i == 5 || i == 7 ? interlock::BendingKind::unsettled : interlock::BendingKind::locked;
+      each->curvature = sign * (limit + (sign < 0 ? 30 : 0) + 4 * std::cos(6 * each->angle));
+      each->orthogonal = sign * -10;
+    }
+  }
+  plots::PolarPlot plot;
+  plot.resize(420, 460);
+  plot.setCurves(scene::curvatureLimitCurves(result));
+  plot.show();
+  const QImage picture = QTest::qWaitForWindowExposed(&plot) ? plot.grab().toImage() : QImage();
+  shell::applyTheme(shell::Theme::light);
+  return picture;
 }
 
 QImage drawPolar(double limit, bool dark) {
@@ -95,6 +150,23 @@ class TestInterlockScreenshots : public QObject {
   void theLimit() {
     compare(drawLimit(6e-3), "cell_limit", 100);
     requireNoticed(drawLimit(5e-3), "cell_limit", 100);
+  }
+
+  void thePatch() {
+    compare(drawPatch(12, false), "patch", 150);
+    compare(drawPatch(12, true), "patch_dark", 150);
+    requireNoticed(drawPatch(-12, false), "patch", 150);
+  }
+
+  void theBendingBoundary() {
+    compare(drawCurvatureBoundary(10), "bending_boundary", 120);
+    requireNoticed(drawCurvatureBoundary(-20), "bending_boundary", 120);
+  }
+
+  void theCurvatures() {
+    compare(drawCurvatures(45, false), "curvatures", 60, Sharpness::smooth);
+    compare(drawCurvatures(45, true), "curvatures_dark", 60, Sharpness::smooth);
+    requireNoticed(drawCurvatures(49, false), "curvatures", 60, Sharpness::smooth);
   }
 
   void thePolarPlot() {

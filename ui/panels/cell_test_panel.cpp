@@ -42,7 +42,7 @@ QString degrees(const scene::Json& options) {
 /// "stretch at 0°, free across", from the study's normalised entry.
 QString loadText(const scene::Json& options) {
   const std::string type = options.value("type", "");
-  if (type == "gravity_bending") return QObject::tr("weight, clamped towards %1°").arg(degrees(options));
+  if (type == "gravity_bending") return QObject::tr("weight, free towards %1°").arg(degrees(options));
   if (type == "macro_equilibrium") {
     const auto counted = [&](const char* key, const QString& one, const QString& many) {
       const std::size_t count = options.contains(key) ? options[key].size() : 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPen>
 #include <QWidget>
 #include <optional>
 
@@ -66,8 +67,7 @@ class PolarPlot final : public QWidget {
   void paintReadout(QPainter& painter) const;
   struct LegendLine {
     QString text;
-    QColor color;
-    Qt::PenStyle pen;
+    QPen pen;
   };
   std::vector<LegendLine> legend() const;
 

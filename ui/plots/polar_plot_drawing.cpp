@@ -130,7 +130,8 @@ void PolarPlot::paintCurves(QPainter& painter) const {
     add(curve.angles.front(), curve.values.front());
     end();
     const QColor color = curveColor(static_cast<int>(i));
-    painter.setPen(QPen(color, 2.2, curve.dashed ? Qt::DashLine : Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.setPen(
+        QPen(color, 2.2 * curve.width, curve.dashed ? Qt::DashLine : Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(path);
     painter.setPen(Qt::NoPen);
@@ -163,12 +164,14 @@ std::vector<PolarPlot::LegendLine> PolarPlot::legend() const {
   for (std::size_t i = 0; i < curves_.curves.size(); ++i) {
     if (hidden_[i]) continue;
     const QString name = QString::fromStdString(curves_.curves[i].name);
-    lines.push_back({name, curveColor(static_cast<int>(i)), curves_.curves[i].dashed ? Qt::DashLine : Qt::SolidLine});
+    const scene::PolarCurve& curve = curves_.curves[i];
+    lines.push_back(
+        {name, QPen(curveColor(static_cast<int>(i)), 2.2 * curve.width, curve.dashed ? Qt::DashLine : Qt::SolidLine)});
     anyMeasured = anyMeasured || std::any_of(measured_.begin(), measured_.end(),
                                              [&](const MeasuredTable& table) { return table.quantity == name; });
   }
-  if (anyMeasured) lines.push_back({tr("measured"), measuredColor(palette()), Qt::SolidLine});
-  if (!curves_.note.empty()) lines.push_back({QString::fromStdString(curves_.note), {}, Qt::NoPen});
+  if (anyMeasured) lines.push_back({tr("measured"), QPen(measuredColor(palette()), 2.2)});
+  if (!curves_.note.empty()) lines.push_back({QString::fromStdString(curves_.note), QPen(Qt::NoPen)});
   return lines;
 }
 
@@ -177,8 +180,8 @@ void PolarPlot::paintLegend(QPainter& painter) const {
   const double line = metrics.height() + 3;
   const auto lines = legend();
   double y = height() - 6 - line * (static_cast<double>(lines.size()) - 0.5);
-  for (const auto& [text, color, pen] : lines) {
-    painter.setPen(QPen(color, 2.2, pen));
+  for (const auto& [text, pen] : lines) {
+    painter.setPen(pen);
     painter.drawLine(QPointF(12, y), QPointF(30, y));
     painter.setPen(plotStyle(palette()).text);
     painter.drawText(QRectF(38, y - line / 2, width() - 46, line), Qt::AlignLeft | Qt::AlignVCenter, text);

@@ -32,6 +32,7 @@ constexpr double fineTurn = 0.15, coarseTurn = 0.3;  // [rad] between the cross-
 constexpr std::size_t many = 40;                     // elements from which on they are drawn coarsely
 constexpr int rings = 10, spokes = 24, between = 4;  // grid lines of a paraboloid, and pieces of each
 constexpr double arrowLength = 0.3;                  // of the patch
+constexpr double roomyRadius = 48;  // of an element, where marks have their full size [device-independent pixels]
 constexpr double farBehind = 0.02, lineBehind = 0.03;
 constexpr double rimRoom = 1.15;  ///< of the height of a paraboloid, over that of the elements
 
@@ -69,7 +70,8 @@ struct PatchView::Parts {
   std::shared_ptr<const PatchConfiguration> configuration;
   std::vector<int> tintOf;
   bool contactsVisible = true, stale = false;
-  double reach = 0;  ///< of the elements from the axis [m]
+  double reach = 0;          ///< of the elements from the axis [m]
+  double elementRadius = 0;  ///< of the largest around its origin [m]
 
   explicit Parts(Stage& around) : stage(around) {
     vtkRenderer* renderer = stage.renderer();
@@ -100,7 +102,6 @@ struct PatchView::Parts {
     stage.onField = [this] { applyTheme(); };
     stage.onPixelRatio = [this] {
       for (LinePrimitive* line : {&grid, &rim}) line->setPixelRatio(stage.pixelRatio());
-      marks.setPixelRatio(stage.pixelRatio());
       key.setPixelRatio(stage.pixelRatio());
       stage.camera().setTopMargin(captionRoom * stage.pixelRatio());
     };
@@ -127,13 +128,14 @@ struct PatchView::Parts {
     const interlock::CellState& state = configuration->state;
     tintOf = elementTints(patch, tints);
     Bounds bounds;
-    reach = 0;
+    reach = elementRadius = 0;
     for (std::size_t shape = 0; shape < patch.shapes.size(); ++shape) {
       auto kind = std::make_unique<Kind>();
       for (std::size_t i = 0; i < patch.elements.size(); ++i)
         if (patch.elements[i].shape == static_cast<int>(shape)) kind->elements.push_back(static_cast<int>(i));
       if (kind->elements.empty()) continue;
       const geometry::SurfaceMesh mesh = surfaceOf(patch, static_cast<int>(shape));
+      elementRadius = std::max(elementRadius, mesh.points.colwise().norm().maxCoeff());
       Points positions(3, static_cast<Eigen::Index>(kind->elements.size()));
       std::vector<Eigen::Matrix3d> rotations;
       for (std::size_t i = 0; i < kind->elements.size(); ++i) {
@@ -251,8 +253,17 @@ struct PatchView::Parts {
     stage.setNotice(stale && configuration ? "inputs have changed since this was computed" : "", colors.text);
   }
 
+  /// Marks are smaller where elements are, so that these are seen.
+  double markScale() const {
+    const Vector3d place = configuration->state.positions.rowwise().mean();
+    const auto from = stage.camera().pixelOf(place);
+    const auto to = stage.camera().pixelOf(place + elementRadius * stage.camera().pose().up);
+    return from && to ? std::clamp((*to - *from).norm() / stage.pixelRatio() / roomyRadius, 0.45, 1.0) : 1;
+  }
+
   void placeMarks() {
     if (!configuration) return;
+    marks.setPixelRatio(stage.pixelRatio() * markScale());
     Eigen::Matrix2Xd pixels(2, static_cast<Eigen::Index>(configuration->contacts.size()));
     Eigen::Index count = 0;
     for (const interlock::CellContactForce& contact : configuration->contacts)

@@ -88,7 +88,7 @@ class CurvesPainter {
     double y = place_.bottom + (legendLines() - 0.2) * lineHeight * ratio_;
     const double left = place_.left + 0.5 * place_.width - 60 * ratio_;
     for (std::size_t i = 0; i < plot_.curves.size(); ++i) {
-      pen(colorOf(i), 2.4);
+      pen(colorOf(i), 2.4 * plot_.curves[i].width);
       painter_.GetPen()->SetLineType(plot_.curves[i].dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
       painter_.DrawLine(static_cast<float>(left), static_cast<float>(y), static_cast<float>(left + 22 * ratio_),
                         static_cast<float>(y));
@@ -119,7 +119,7 @@ class CurvesPainter {
   }
 
   void paintCurve(const scene::PolarCurve& curve, const Color& color) {
-    pen(color, 2.4);
+    pen(color, 2.4 * curve.width);
     painter_.GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
     std::vector<float> points, dots;  // a value without neighbours is a dot
     const auto end = [&] {

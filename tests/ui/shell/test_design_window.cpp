@@ -80,9 +80,9 @@ class TestDesignWindow : public QObject {
     const Json taken = mass();
     QVERIFY(taken != dragged);
     while (window_->document().undoStack().canUndo()) window_->document().undoStack().undo();
-    QCOMPARE(mass(), first);
+    QVERIFY(mass() == first);
     while (window_->document().undoStack().canRedo()) window_->document().undoStack().redo();
-    QCOMPARE(mass(), taken);
+    QVERIFY(mass() == taken);
 
     const QString file = folder_.filePath("links.stl");
     window_->exportPartsTo(file);
