@@ -14,8 +14,9 @@ using Pointer = Json::json_pointer;
 /// Lists whose entries are designed one by one may be left out of a scene as long as all entries are alike: those are
 /// put there, as long as the design needs them.
 void addMissingList(const Pointer& list, std::size_t count, const Json& normalized, Json& json) {
-  if (json.contains(list)) return;
-  json[list] = normalized.contains(list) ? normalized[list] : Json(std::vector<double>(count, 1.0));
+  const auto isThere = [&](const Json& from) { return from.contains(list) && !from[list].empty(); };
+  if (isThere(json)) return;
+  json[list] = isThere(normalized) ? normalized[list] : Json(std::vector<double>(count, 1.0));
 }
 
 }  // namespace

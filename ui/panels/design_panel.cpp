@@ -227,11 +227,10 @@ void DesignPanel::play() {
   const auto motion = result_->motionOf(design);
   const document::StudyState* own = study();
   Q_EMIT designChosen(motion->problem, design.z,
-                      tr("%1, design %2 of %3:  %4")
+                      tr("%1: %2 of %3")
                           .arg(own ? QString::fromStdString(own->name) : QString())
                           .arg(shown_)
-                          .arg(result_->design.history.size() - 1)
-                          .arg(gainText(*result_, design)));
+                          .arg(result_->design.history.size() - 1));
 }
 
 void DesignPanel::takeDesign() {

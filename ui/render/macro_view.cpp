@@ -167,10 +167,10 @@ std::optional<int> MacroView::pickNode(double, double, double) const { return st
 
 std::string macroCaption(const scene::MacroResult& result) {
   std::string text = result.provenance.study + ":  " + std::to_string(result.sheet->mesh.triangles.size()) +
-                     " triangles,  at most " + numberText(result.state.stretchGauge.maxCoeff()) +
-                     " of the limits of stretch";
+                     " triangles,  stretch up to " + numberText(result.state.stretchGauge.maxCoeff()) +
+                     " of its limits";
   if (result.state.bendingGauge.size() > 0 && result.state.bendingGauge.maxCoeff() > 0)
-    text += ",  " + numberText(result.state.bendingGauge.maxCoeff()) + " of those of bending";
+    text += ",  bending up to " + numberText(result.state.bendingGauge.maxCoeff());
   if (result.deflections.cols() > 0) {
     double largest = 0;
     for (Eigen::Index i = 0; i < result.deflections.cols(); ++i)
