@@ -52,19 +52,19 @@ StretchLimitElement stretchElement(const LimitedTriangle& triangle, std::size_t 
 }
 
 /// A triangle with its neighbours, flat at rest, in the material's axes of that triangle.
-struct Stencil {
+struct TriangleStencil {
   std::array<int, 6> nodes;  ///< a neighbour's that is not there is the corner opposite it
   Eigen::Matrix<double, 2, 6> rest;
 
   bool hasNeighbour(int i) const { return nodes[3 + i] != nodes[i]; }
 };
 
-std::vector<Stencil> stencils(const std::vector<LimitedTriangle>& triangles) {
+std::vector<TriangleStencil> triangleStencils(const std::vector<LimitedTriangle>& triangles) {
   std::vector<std::array<int, 3>> corners;
-  std::vector<Stencil> result;
+  std::vector<TriangleStencil> result;
   for (const LimitedTriangle& triangle : triangles) {
     const auto& [a, b, c] = corners.emplace_back(triangle.nodes);
-    Stencil& stencil = result.emplace_back();
+    TriangleStencil& stencil = result.emplace_back();
     stencil.nodes = {a, b, c, a, b, c};
     stencil.rest << triangle.rest, triangle.rest;
   }
@@ -107,7 +107,7 @@ Vector2d slopeOf(const Eigen::Matrix<double, 2, 3>& places, const Vector3d& heig
 
 /// What the angles of a triangle's hinges are, to first order, on z = ½ xᵀ s x: a column for each of mean, deviator and
 /// shear [m].
-Matrix3d anglesOfCurvature(const Stencil& stencil) {
+Matrix3d anglesOfCurvature(const TriangleStencil& stencil) {
   Matrix3d angles;
   for (int k = 0; k < 3; ++k) {
     const Matrix2d tensor = (Matrix2d() << (k < 2 ? 1 : 0), (k == 2 ? 1 : 0), (k == 2 ? 1 : 0),
@@ -133,7 +133,8 @@ Matrix3d anglesOfCurvature(const Stencil& stencil) {
   return angles;
 }
 
-CurvatureLimitElement curvatureElement(const LimitedTriangle& triangle, const Stencil& stencil, std::size_t index) {
+CurvatureLimitElement curvatureElement(const LimitedTriangle& triangle, const TriangleStencil& stencil,
+                                       std::size_t index) {
   const Matrix2d edges = restEdges(triangle, index);
   CurvatureLimitElement element;
   element.set = triangle.bending;
@@ -187,7 +188,7 @@ std::shared_ptr<const Energy> makeStretchLimit(const std::vector<LimitedTriangle
 
 std::shared_ptr<const Energy> makeCurvatureLimit(const std::vector<LimitedTriangle>& triangles,
                                                  const StrainLimitFunction& function) {
-  const std::vector<Stencil> around = stencils(triangles);
+  const std::vector<TriangleStencil> around = triangleStencils(triangles);
   std::vector<CurvatureLimitElement> elements;
   std::vector<std::array<int, 18>> coordinates;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -201,7 +202,7 @@ std::shared_ptr<const Energy> makeCurvatureLimit(const std::vector<LimitedTriang
 }
 
 SheetStrains sheetStrains(const std::vector<LimitedTriangle>& triangles, const Vector& x) {
-  const std::vector<Stencil> around = stencils(triangles);
+  const std::vector<TriangleStencil> around = triangleStencils(triangles);
   SheetStrains result;
   result.stretch.resize(3, static_cast<Eigen::Index>(triangles.size()));
   result.curvature.resizeLike(result.stretch);

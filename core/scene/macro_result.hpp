@@ -7,6 +7,17 @@
 
 namespace pliant::scene {
 
+/// The elements themselves under the same loads, and how far the sheet is from their origins.
+struct NativeComparison {
+  std::shared_ptr<const interlock::UnitCell> patch;
+  interlock::CellEquilibrium rest;
+  Eigen::Matrix3Xd deflections;  ///< of the elements that carry loads [m]
+  double seconds = 0;
+  int compared = 0;  ///< elements that rest within the sheet
+  double meanDistance = 0, largestDistance = 0;
+  double size = 0;  ///< of the patch: the largest distance of two origins at rest [m]
+};
+
 /// A sheet at rest under its loads: "macro_equilibrium".
 class MacroResult final : public InterlockResult {
  public:
@@ -20,16 +31,7 @@ class MacroResult final : public InterlockResult {
   std::vector<int> clamped;
   Eigen::Matrix3Xd deflections;  ///< of the nodes that carry loads [m]
 
-  /// The elements themselves under the same loads, and how far the sheet is from their origins.
-  struct Native {
-    std::shared_ptr<const interlock::UnitCell> patch;
-    interlock::CellEquilibrium rest;
-    Eigen::Matrix3Xd deflections;  ///< of the elements that carry loads [m]
-    double seconds = 0;
-    int compared = 0;  ///< elements that rest within the sheet
-    double meanDistance = 0, largestDistance = 0;
-    double size = 0;  ///< of the patch: the largest distance of two origins at rest [m]
-  };
+  using Native = NativeComparison;
   std::optional<Native> native;
 };
 

@@ -9,7 +9,7 @@ namespace dimensions = base::dimensions;
 
 namespace {
 
-ParameterSpec file(std::string key, std::string description) {
+ParameterSpec limitFile(std::string key, std::string description) {
   ParameterSpec spec = text(std::move(key), std::move(description));
   spec.kind = base::ValueKind::path;
   return optional(std::move(spec));
@@ -29,7 +29,7 @@ std::vector<ParameterSpec> outlineKeys() {
                   "disk"),
       optional(positive(number("radius", "", "Of a disk, or of a hexagon to its corners.", dimensions::length))),
       optional(list("size", "Sides of a rectangle.", positive(number("", "", "Length.", dimensions::length)), 2, 2)),
-      file("mesh", "A triangle mesh in the plane z = 0, in metres; relative to the scene."),
+      limitFile("mesh", "A triangle mesh in the plane z = 0, in metres; relative to the scene."),
       withDefault(
           integer("rings", "", "Of triangles, from the middle to the rim; of a rectangle cells along its longer side.",
                   1, 400),
@@ -43,11 +43,11 @@ std::vector<ParameterSpec> outlineKeys() {
 
 std::vector<ParameterSpec> materialKeys() {
   return {
-      file("stretch_limits",
-           "What a \"stretch_boundary\" wrote (boundary.ply), relative to the scene; without it the boundary is "
-           "computed, of 642 limits."),
-      file("bending_limits",
-           "What a \"bending_boundary\" wrote; without it bending has no limit, as of materials that fold."),
+      limitFile("stretch_limits",
+                "What a \"stretch_boundary\" wrote (boundary.ply), relative to the scene; without it the boundary is "
+                "computed, of 642 limits."),
+      limitFile("bending_limits",
+                "What a \"bending_boundary\" wrote; without it bending has no limit, as of materials that fold."),
       withDefault(positive(number("young_modulus", "Y", "Of the weak elastic base.", dimensions::pressure)), "1250 Pa"),
       withDefault(within(number("poisson_ratio", "ν", "Of the base.", dimensions::none), -0.99, 0.49), 0.4),
       withDefault(

@@ -22,9 +22,9 @@ constexpr double farthestStep = 64;
 constexpr double firstShift = 1e-6;
 constexpr double shiftGrowth = 8;
 constexpr double shiftDecay = 0.2;
-constexpr double largestShift = 1e8;
+constexpr double mostShift = 1e8;
 /// Armijo's condition, and where the line search gives up.
-constexpr double sufficientDecrease = 1e-4;
+constexpr double descentAsked = 1e-4;
 constexpr double smallestStep = 1e-10;
 /// Decreases below this, relative to the energy, drown in rounding; then the residual decides.
 constexpr double roundingOfEnergy = 1e-13;
@@ -153,7 +153,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
       for (bool regular = factorizeAt(x, surroundings, HessianKind::convex, shift); !regular;
            regular = factorize(surroundings, shift)) {
         shift = std::max(shiftGrowth * shift, firstShift);
-        if (shift > largestShift) return finish(TerminationType::failed, "The stiffness is not finite.");
+        if (shift > mostShift) return finish(TerminationType::failed, "The stiffness is not finite.");
       }
     }
     for (std::size_t v = 0; v < free_.size(); ++v)
@@ -172,7 +172,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
         return finish(TerminationType::failed, "Rounding leaves more force over than the tolerance allows.");
       }
     } else {
-      while (!(reached <= energy + sufficientDecrease * length * descent) && length > smallestStep) {
+      while (!(reached <= energy + descentAsked * length * descent) && length > smallestStep) {
         length *= 0.5;
         reached = value(x + length * step, surroundings);
       }
@@ -180,7 +180,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
         // Of an exact Hessian that is barely regular, or of a bad place: more of the diagonal.
         convexSteps = convexInSuccession;
         if (convex) shift = std::max(shiftGrowth * shift, firstShift);
-        if (shift > largestShift) return finish(TerminationType::failed, "No direction lowers the energy.");
+        if (shift > mostShift) return finish(TerminationType::failed, "No direction lowers the energy.");
         continue;
       }
       // Not twice in succession: along stiff directions a doubled step only mirrors what is left.
