@@ -161,12 +161,4 @@ StrainFunction AdmissibleStrainSet::distance(const Vector3d& strain) const {
   return {scale * closest.distance, scale * closest.gradient, scale * closest.hessian};
 }
 
-Matrix3d turnedStrain(double angle) {
-  Matrix3d turn = Matrix3d::Identity();
-  turn(1, 1) = turn(2, 2) = std::cos(2 * angle);
-  turn(1, 2) = std::sin(2 * angle);
-  turn(2, 1) = -turn(1, 2);
-  return turn;
-}
-
 }  // namespace pliant::mechanics

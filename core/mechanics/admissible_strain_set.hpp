@@ -58,8 +58,4 @@ class AdmissibleStrainSet {
   GaugeError gaugeError_;
 };
 
-/// Derivatives of E by its arguments when a strain's axes are turned by the angle α: (mean, deviator, shear) in turned
-/// axes = turned(α) (mean, deviator, shear).
-Eigen::Matrix3d turnedStrain(double angle);
-
 }  // namespace pliant::mechanics

@@ -178,9 +178,9 @@ std::string macroCaption(const scene::MacroResult& result) {
     text += "\nloads moved by up to " + millimetres(largest);
   }
   if (result.native)
-    text += std::string(result.deflections.cols() > 0 ? ",  " : "\n") + "elements off the sheet by " +
-            millimetres(result.native->meanDistance) + " on average, " + millimetres(result.native->largestDistance) +
-            " at most";
+    text += std::string(result.deflections.cols() > 0 ? ",  " : "\n") + "elements " +
+            millimetres(result.native->meanDistance) + " off the sheet (at most " +
+            millimetres(result.native->largestDistance) + ")";
   return text;
 }
 

@@ -37,7 +37,6 @@ class TestAdmissibleStrainSet : public QObject {
   void derivativesOfTheGauge();
   void gaugeIsHomogeneous();
   void distanceIsRelativeToTheBox();
-  void turnedAxesTurnTheStrain();
   void hiddenBoundaryIsRefused();
 };
 
@@ -111,18 +110,6 @@ void TestAdmissibleStrainSet::distanceIsRelativeToTheBox() {
   QVERIFY(std::abs(set->size() - 0.6 * std::sqrt(3.0)) < 1e-15);
   QVERIFY(std::abs(set->distance(Vector3d::Zero()).value + 0.3 / std::sqrt(3.0) / set->size()) < 1e-15);
   QVERIFY(std::abs(set->distance({0.5, 0, 0}).value - 0.2 / set->size()) < 1e-15);
-}
-
-/// Against turning the tensor itself.
-void TestAdmissibleStrainSet::turnedAxesTurnTheStrain() {
-  const double angle = 0.4;
-  const Vector3d strain(0.3, 0.1, -0.2);
-  Eigen::Matrix2d tensor, turn;
-  tensor << strain[0] + strain[1], strain[2], strain[2], strain[0] - strain[1];
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  const Eigen::Matrix2d turned = turn.transpose() * tensor * turn;
-  const Vector3d expected(0.5 * turned.trace(), 0.5 * (turned(0, 0) - turned(1, 1)), turned(0, 1));
-  QVERIFY((mechanics::turnedStrain(angle) * strain - expected).norm() < 1e-15);
 }
 
 void TestAdmissibleStrainSet::hiddenBoundaryIsRefused() {
