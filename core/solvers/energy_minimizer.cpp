@@ -166,8 +166,9 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
     double length = 1, reached = value(x + step, surroundings);
     if (-descent < roundingOfEnergy * std::abs(energy)) {
       // The energy's decrease drowns in rounding, and the force's may not.
-      const Vector trialSlope = gradient(x + step, surroundings);
-      if (!(trialSlope.cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff())) {
+      const bool lower = std::isfinite(reached) &&
+                         gradient(x + step, surroundings).cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff();
+      if (!lower) {
         if (step.cwiseAbs().maxCoeff() <= options.stepTolerance * size) return finish(TerminationType::converged, "");
         return finish(TerminationType::failed, "Rounding leaves more force over than the tolerance allows.");
       }
