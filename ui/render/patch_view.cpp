@@ -222,7 +222,7 @@ struct PatchView::Parts {
     const Palette& colors = stage.colors();
     const std::array<Color, tints> tones{mixed(colors.rest, colors.mass, 0.28), mixed(colors.rest, {1, 1, 1}, 0.25),
                                          mixed(colors.rest, colors.trajectory, 0.3)};
-    const Color clamped = mixed(colors.link, colors.background, 0.1);
+    const Color clamped = mixed(colors.driven, colors.background, 0.15);
     const Color arrowColor = mixed(colors.text, colors.background, 0.25);
     const auto fresh = [this](const Color& color) { return stale ? faded(color) : color; };
     std::vector<bool> held(tintOf.size(), false);

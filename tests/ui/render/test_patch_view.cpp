@@ -35,6 +35,7 @@ Image draw(const std::shared_ptr<const PatchConfiguration>& configuration, AxisV
 }
 
 bool isDark(int red, int green, int blue) { return std::max({red, green, blue}) < 110; }
+bool isPink(int red, int green, int blue) { return red > green + 25 && blue > green + 10; }
 bool isOrange(int red, int green, int blue) { return red > blue + 60 && red > green + 25; }
 
 /// Pixels of elements and marks: the key at the bottom right becomes background, as the top left corner is.
@@ -93,7 +94,8 @@ class TestPatchView : public QObject {
     contact.place = {0, 0, 0.01};
     marked->contacts = {contact};
     const Image before = draw(plain), after = draw(marked);
-    QVERIFY(found(after, isDark).pixels > found(before, isDark).pixels + 500);
+    QCOMPARE(found(before, isPink).pixels, 0);
+    QVERIFY(found(after, isPink).pixels > 500);
     QCOMPARE(found(before, isOrange).pixels, 0);
     const Blob dot = found(after, isOrange);
     QVERIFY(dot.pixels > 20 && std::abs(dot.x - 240) < 60 && std::abs(dot.y - 200) < 60);
