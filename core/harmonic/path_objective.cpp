@@ -4,23 +4,13 @@
 
 #include "core/harmonic/design_objective.hpp"
 #include "core/harmonic/path_length.hpp"
+#include "core/math/phase_shift.hpp"
 
 namespace pliant::harmonic {
 
 namespace {
 
 using std::numbers::pi;
-
-/// The path begun earlier by φ: harmonic k turned by kφ.
-Matrix shifted(const Matrix& coefficients, double phase) {
-  Matrix result = coefficients;
-  for (Eigen::Index k = 1; 2 * k < coefficients.rows(); ++k) {
-    const double c = std::cos(static_cast<double>(k) * phase), s = std::sin(static_cast<double>(k) * phase);
-    result.row(2 * k - 1) = c * coefficients.row(2 * k - 1) - s * coefficients.row(2 * k);
-    result.row(2 * k) = s * coefficients.row(2 * k - 1) + c * coefficients.row(2 * k);
-  }
-  return result;
-}
 
 double swingOf(const Matrix& coefficients) { return coefficients.bottomRows(coefficients.rows() - 1).squaredNorm(); }
 
@@ -61,7 +51,7 @@ class PathComparison {
 
  private:
   Matrix difference(std::size_t path, double phase) const {
-    Matrix result = motions_[path] - shifted(targets_[path], phase);
+    Matrix result = motions_[path] - math::shiftedInPhase(targets_[path], phase);
     result.row(0) *= goal_.matchPlace ? std::numbers::sqrt2 : 0;
     return result;
   }

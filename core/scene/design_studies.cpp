@@ -12,6 +12,7 @@
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/study_input.hpp"
 
 namespace pliant::scene {
 
@@ -26,16 +27,14 @@ class DesignReader {
  public:
   DesignReader(const Scene& scene, Model& model, const Json& options)
       : scene_(scene), model_(model), options_(options) {
-    const auto names = studyNames(scene);
-    const auto index = std::find(names.begin(), names.end(), options["name"].get<std::string>()) - names.begin();
-    place_ = scene.name() + ": " + childPointer("/studies", static_cast<std::size_t>(index));
+    place_ = placeOfStudy(scene, options);
   }
 
   /// Indices of those that may change; adds factors of stiffness to the model's parameters.
   std::vector<int> parameters() {
     std::vector<int> chosen;
     if (options_.contains("parameters"))
-      for (std::size_t i = 0; i < options_["parameters"].size(); ++i) chosen.push_back(parameterNamed(i));
+      for (std::size_t i = 0; i < options_["parameters"].size(); ++i)         chosen.push_back(parameterNamed(model_, options_["parameters"], i, place_ + "/parameters"));
     if (options_.contains("stiffness_factors"))
       for (std::size_t i = 0; i < options_["stiffness_factors"].size(); ++i) addFactors(i, chosen);
     if (!options_.contains("parameters") && !options_.contains("stiffness_factors"))
@@ -56,20 +55,6 @@ class DesignReader {
   }
 
  private:
-  int parameterNamed(std::size_t entry) const {
-    const std::string name = options_["parameters"][entry];
-    const auto found = std::find_if(model_.parameters.begin(), model_.parameters.end(),
-                                    [&](const auto& parameter) { return parameter->name() == name; });
-    const std::string place = childPointer(place_ + "/parameters", entry);
-    if (found == model_.parameters.end())
-      throw InputError(place, "There is no point mass and no entry of \"parameters\" named " + quote(name) + ".");
-    const auto& list = options_["parameters"];
-    if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(entry), name) !=
-        list.begin() + static_cast<std::ptrdiff_t>(entry))
-      throw InputError(place, "The parameter " + quote(name) + " stands twice in this list.");
-    return static_cast<int>(found - model_.parameters.begin());
-  }
-
   void addFactors(std::size_t index, std::vector<int>& chosen) {
     const Json& entry = options_["stiffness_factors"][index];
     const std::string place = childPointer(place_ + "/stiffness_factors", index);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/scene/calibration_chart.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/study.hpp"
@@ -296,6 +297,8 @@ std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem:
         comparisons.push_back(found);
       else if (found.kind() == "cloth" && found.summary.value("steps", 0) > 0)
         cloths.push_back(found);
+      else if (found.kind() == "calibration" && found.summary.contains("measurements"))
+        for (ResultChart& chart : calibrationCharts(found.folder, found.summary)) charts.push_back(std::move(chart));
       else if (found.kind() == "harmonic" || found.kind() == "time")
         response.add(found);
       else if (!studies.empty())

@@ -1,5 +1,6 @@
 #include "core/base/error.hpp"
 #include "core/scene/bending_studies.hpp"
+#include "core/scene/calibration_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
 #include "core/scene/design_studies.hpp"
 #include "core/scene/harmonic_studies.hpp"
@@ -56,6 +57,7 @@ StudyRegistry::StudyRegistry()
     : factories_{{"periodic_motion", makePeriodicMotionStudy},
                  {"frequency_response", makeFrequencyResponseStudy},
                  {"backbone", makeBackboneStudy},
+                 {"calibration", makeCalibrationStudy},
                  {"design", makeDesignStudy},
                  {"linear_modes", makeLinearModesStudy},
                  {"linear_response", makeLinearResponseStudy},
@@ -118,6 +120,7 @@ std::string hashScene(const Scene& scene) {
   for (const Json& body : scene.normalized()["bodies"]) addFile(body, "file");
   for (const Json& study : scene.normalized()["studies"]) {
     addFile(study, "candidate");
+    for (const Json& measurement : study.value("measurements", Json::array())) addFile(measurement, "file");
     for (const Json& objective : study.value("objectives", Json::array()))
       for (const Json& path : objective.value("paths", Json::array())) addFile(path, "file");
   }

@@ -1,6 +1,7 @@
 #include "core/scene/study_specs.hpp"
 
 #include "core/scene/bending_specs.hpp"
+#include "core/scene/calibration_specs.hpp"
 #include "core/scene/cloth_specs.hpp"
 #include "core/scene/design_specs.hpp"
 #include "core/scene/interlock_specs.hpp"
@@ -141,6 +142,10 @@ const std::vector<ParameterSpec>& studySpecs() {
                       "Changes design parameters within their bounds so that the motion at one frequency comes nearer "
                       "to what is wanted (thesis 2.4.3).",
                       designKeys(), startKeys()),
+        harmonicStudy("calibration",
+                      "Fits parameters, such as damping, to measured steady motions, with confidence intervals (thesis "
+                      "2.5.2).",
+                      calibrationKeys(), startKeys()),
         object("linear_modes",
                "Natural frequencies and modes of the model linearised about its static equilibrium, driven nodes held.",
                {name(), withDefault(integer("count", "", "Modes, from the lowest frequency upwards.", 1, 1000), 6)}),
