@@ -88,6 +88,8 @@ struct FilmSettings {
 /// Whether a file of this name is written by exportFilm.
 bool isFilm(const std::string& file);
 ExitStatus exportFilm(const MotionOptions& options, const FilmSettings& settings);
+/// All of a motion as an animated .glb.
+ExitStatus exportAnimation(const MotionOptions& options, const FilmSettings& settings);
 
 /// Drapes side by side, with their limits.
 struct DrapesOptions {

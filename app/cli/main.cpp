@@ -131,10 +131,11 @@ int runProgram(int argc, char** argv) {
   verb->callback([&] { status = drapes(drapesOptions, size); });
 
   FilmSettings film;
-  verb = program.add_subcommand("export",
-                                "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF (of an interlocking material, a "
-                                "patch for a printer), closed bodies to be made with --make, the "
-                                "whole motion as a video or pictures, or the design parameters as a table");
+  verb =
+      program.add_subcommand("export",
+                             "Write the surface as STL, OBJ, PLY, glTF, glb or 3MF (of an interlocking material, a "
+                             "patch for a printer), closed bodies to be made with --make, the "
+                             "whole motion as a video, pictures or an animation, or the design parameters as a table");
   addMotion(verb, motion);
   verb->add_option(
           "--out", motion.out,
@@ -151,6 +152,8 @@ int runProgram(int argc, char** argv) {
   verb->add_option("--periods", film.periods, "Periods of a periodic motion")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  bool animate = false;
+  verb->add_flag("--animate", animate, "The whole motion as an animated .glb; of a periodic motion one period");
   PatchSettings patch;
   verb->add_option("--cell", patch.cell, "Interlocking material, where the scene has several");
   verb->add_option(
@@ -165,6 +168,8 @@ int runProgram(int argc, char** argv) {
     patch.clearance = parts.numbers["clearance"];
     if (isFilm(motion.out))
       status = exportFilm(motion, film);
+    else if (animate)
+      status = exportAnimation(motion, film);
     else if (isPatch(motion))
       status = exportPatch(motion, patch);
     else if (isTable(motion.out))

@@ -1,11 +1,16 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 #include "app/cli/interlock_pictures.hpp"
 #include "app/cli/moment.hpp"
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/motion_animation.hpp"
 #include "core/scene/result_charts.hpp"
 #ifdef PLIANT_HAS_RENDERER
 #include "app/cli/picture_size.hpp"
@@ -28,6 +33,31 @@ ExitStatus exportMesh(const MotionOptions& options) {
   geometry::writeMesh(mesh, options.out);
   std::cout << options.out << ": " << moment.model->nodeCount() << " nodes, " << mesh.triangles.size()
             << " triangles\n";
+  return done;
+}
+
+ExitStatus exportAnimation(const MotionOptions& options, const FilmSettings& settings) {
+  constexpr double secondsPerPeriod = 2;  // as in videos
+  if (std::filesystem::path(options.out).extension() != ".glb")
+    throw InputError("--out", "An animation's file must end in .glb, found " + scene::quote(options.out) + ".");
+  if (!options.time.empty()) throw InputError("--time", "An animation shows all of a motion.");
+  if (options.result.empty()) throw InputError("--result", "An animation needs the folder that `run` wrote.");
+  const Moment moment = findMoment(options);
+  base::ExecutionContext context;
+  geometry::MeshAnimation animation;
+  if (moment.cloth) {
+    animation = *scene::clothAnimation(*moment.cloth->problem, moment.cloth->frames, context);
+    for (double& time : animation.times) time /= settings.speed.value_or(1);
+  } else {
+    const double seconds = settings.speed ? moment.period / *settings.speed : secondsPerPeriod;
+    const int steps = settings.picturesPerSecond
+                          ? std::max(1, static_cast<int>(std::lround(*settings.picturesPerSecond * seconds)))
+                          : scene::animationSteps(seconds);
+    animation = scene::periodAnimation(*moment.problem, moment.z, steps, seconds);
+  }
+  geometry::writeAnimation(animation, options.out);
+  std::cout << options.out << ": " << animation.frames.size() << " frames of " << animation.triangles.size()
+            << " triangles, " << base::formatQuantity(animation.times.back(), base::dimensions::time) << "\n";
   return done;
 }
 

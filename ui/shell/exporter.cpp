@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "core/geometry/mesh_animation.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/motion_animation.hpp"
 #include "ui/render/film.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -23,17 +23,11 @@ namespace {
   throw base::InputError(file.toStdString(), problem.toStdString());
 }
 
-geometry::SurfaceMesh frameMesh(const cloth::ClothProblem& problem, const scene::ClothFrame& frame) {
-  mechanics::Vector positions = problem.model->restPositions;
-  positions.head(frame.positions.size()) = frame.positions.reshaped();
-  return scene::surfaceAt(*problem.model, positions);
-}
-
 geometry::SurfaceMesh deformedMesh(const document::Document& document, const jobs::MotionSession& session,
                                    viewport::Viewport& viewport) {
   const int frame = viewport.showsCloth() ? viewport.clothView().frame() : -1;
   if (frame >= 0)
-    return frameMesh(*viewport.clothProblem(), *viewport.clothFrames().at(static_cast<std::size_t>(frame)));
+    return scene::clothMesh(*viewport.clothProblem(), *viewport.clothFrames().at(static_cast<std::size_t>(frame)));
   const double tau = viewport.tau();
   const mechanics::Model& model = *document.model();
   const auto& shown = session.shown();
@@ -83,16 +77,19 @@ FrameExport filmExport(const std::filesystem::path& file, const jobs::MotionSess
   };
 }
 
-FrameExport animationExport(const std::filesystem::path& file, const viewport::Viewport& viewport) {
-  return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
-    geometry::MeshAnimation animation;
-    animation.triangles = frameMesh(*problem, *frames.front()).triangles;
-    for (const auto& frame : frames) {
-      if (context.cancelRequested()) return 0;
-      animation.frames.push_back(frameMesh(*problem, *frame).points);
-      animation.times.push_back(frame->time);
-    }
-    geometry::writeAnimation(animation, file);
+FrameExport animationExport(const std::filesystem::path& file, const jobs::MotionSession& session,
+                            const viewport::Viewport& viewport) {
+  if (viewport.showsCloth())
+    return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
+      const auto animation = scene::clothAnimation(*problem, frames, context);
+      if (animation) geometry::writeAnimation(*animation, file);
+      return animation ? 1 : 0;
+    };
+  const jobs::ShownMotion& shown = *session.shown();
+  return [file, seconds = 1 / viewport.speed(), problem = shown.problem,
+          z = shown.motion.z](base::ExecutionContext& context) {
+    if (context.cancelRequested()) return 0;
+    geometry::writeAnimation(scene::periodAnimation(*problem, z, scene::animationSteps(seconds), seconds), file);
     return 1;
   };
 }
@@ -138,7 +135,7 @@ FrameExport meshExport(const std::filesystem::path& file, const viewport::Viewpo
                                .arg(QString::fromStdString(file.stem().string()))
                                .arg(written++, 5, 10, QLatin1Char('0'))
                                .arg(QString::fromStdString(file.extension().string()));
-      geometry::writeMesh(frameMesh(*problem, *frame), folder.path() / name.toStdString());
+      geometry::writeMesh(scene::clothMesh(*problem, *frame), folder.path() / name.toStdString());
       context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.size()));
     }
     folder.emptyInto(file.parent_path());
@@ -172,8 +169,8 @@ void exportTo(const QString& file, const document::Document& document, const job
 
 QString frameExportFilters(const viewport::Viewport& viewport) {
   const QString films = QStringLiteral("Video (*.ogv);;Numbered pictures (*.png)");
-  return viewport.showsCloth() ? films + QStringLiteral(";;Animation (*.glb);;Numbered meshes (*.obj *.ply *.stl)")
-                               : films;
+  const QString animated = films + QStringLiteral(";;Animation (*.glb)");
+  return viewport.showsCloth() ? animated + QStringLiteral(";;Numbered meshes (*.obj *.ply *.stl)") : animated;
 }
 
 FrameExport frameExport(const QString& file, const jobs::MotionSession& session, const viewport::Viewport& viewport) {
@@ -184,8 +181,8 @@ FrameExport frameExport(const QString& file, const jobs::MotionSession& session,
   if (!cloth && (viewport.showsCloth() || !session.shown()))
     fail(file, QStringLiteral("There is no motion to export yet: run its study first."));
   if (film) return filmExport(file.toStdString(), session, viewport);
-  if (!cloth) fail(file, QStringLiteral("The file's name must end in .ogv or .png."));
-  if (suffix == QLatin1String("glb")) return animationExport(file.toStdString(), viewport);
+  if (suffix == QLatin1String("glb")) return animationExport(file.toStdString(), session, viewport);
+  if (!cloth) fail(file, QStringLiteral("The file's name must end in .ogv, .png or .glb."));
   if (suffix == QLatin1String("obj") || suffix == QLatin1String("ply") || suffix == QLatin1String("stl"))
     return meshExport(file.toStdString(), viewport);
   fail(file, QStringLiteral("The file's name must end in .ogv, .png, .glb, .obj, .ply or .stl."));
