@@ -9,7 +9,7 @@ namespace pliant::harmonic {
 
 namespace {
 
-constexpr int fewestInstants = 128;
+constexpr int fewestInstants = 512;
 constexpr int instantsPerExact = 4;  // times as many for exact values
 
 ObjectiveValue zeroValue(const HarmonicBalanceProblem& problem) {

@@ -14,7 +14,7 @@ namespace pliant::harmonic {
 
 /// A number g(z(p), p) of a design and its motion that constraints hold within bounds: smooth, with its derivatives.
 /// What is the largest or the smallest of many is replaced by a smooth bound of it, so that a constraint that holds for
-/// the bound holds for the extreme.
+/// the bound holds for the extreme, up to what lies between the instants: (π H / instants)² / 2 of a swing at most.
 class ConstraintQuantity : public DesignObjective {
  public:
   /// Without smoothing: the extreme itself, over more instants.
@@ -28,7 +28,7 @@ std::shared_ptr<const ConstraintQuantity> makeTotalMass();
 struct StrainGoal {
   mechanics::Triangles triangles;    ///< in their plane; bending does not strain them
   mechanics::Tetrahedra tetrahedra;  ///< in 3 dimensions
-  /// β of ln(Σ exp(β strain)) / β over elements and 64 instants or more: it exceeds the largest by ln(number) / β at
+  /// β of ln(Σ exp(β strain)) / β over elements and 128 instants or more: it exceeds the largest by ln(number) / β at
   /// most.
   double sharpness = 1e4;
 };
@@ -50,7 +50,7 @@ struct OtherNode {
 struct ClearanceGoal {
   std::vector<int> nodes;
   std::variant<Plane, Sphere, OtherNode> from;
-  /// β of -ln(Σ exp(-β distance)) / β over nodes and 128 instants or more [1/m]: it is below the smallest distance by
+  /// β of -ln(Σ exp(-β distance)) / β over nodes and 512 instants or more [1/m]: it is below the smallest distance by
   /// ln(number) / β at most.
   double sharpness = 1e4;
 };

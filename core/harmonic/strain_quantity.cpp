@@ -10,7 +10,7 @@ namespace pliant::harmonic {
 
 namespace {
 
-constexpr int fewestStrainInstants = 64;
+constexpr int fewestStrainInstants = 128;
 
 /// Edges from the first of D + 1 nodes: coordinates x D.
 template <int D, class Element>
@@ -128,12 +128,16 @@ class LargestStrain final : public ConstraintQuantity {
     }
   }
 
-  /// What the value gains because a parameter moves the rest shape, the motion fixed: central differences.
+  /// What the value gains because a parameter moves the rest shape, the motion fixed.
   double byRestShape(const Model& model, const mechanics::DesignParameter& parameter, const Matrix& positions) const {
-    if (!parameter.pointer().starts_with("/geometry/")) return 0;
-    const double step = 1e-4 * (parameter.maximum(model) - parameter.minimum(model)), at = parameter.value(model);
-    const Vector moved =
-        (parameter.withValue(model, at + step).restPositions - parameter.withValue(model, at - step).restPositions) / 2;
+    const std::string pointer = parameter.pointer();
+    if (pointer.starts_with("/point_masses/") || pointer.find("/stiffness_factors/") != std::string::npos) return 0;
+    // Into the range, since there may be no model beyond its ends.
+    const double at = parameter.value(model), minimum = parameter.minimum(model), maximum = parameter.maximum(model);
+    const double step = (at - minimum < maximum - at ? 1e-4 : -1e-4) * (maximum - minimum);
+    const auto restAt = [&](int steps) { return parameter.withValue(model, at + steps * step).restPositions; };
+    const Vector moved = 2 * restAt(1) - 1.5 * model.restPositions - 0.5 * restAt(2);  // step times the derivative
+    if (moved.isZero(0)) return 0;
     const auto valueAt = [&](double share) {
       const Vector rest = model.restPositions + share * moved;
       return smoothMaximum(strainsAt(model.dimension, rest, positions), goal_.sharpness).value;

@@ -75,9 +75,9 @@ DesignConstraint clearanceConstraint(const Model& model, const Json& entry, cons
   } else if (entry.contains("sphere")) {
     goal.from = harmonic::Sphere{vectorOf(entry["sphere"]["centre"]), entry["sphere"]["radius"]};
   } else {
-    const int other = nodeOfProbe(model, entry["probe"]);
+    const int other = nodeOfProbe(model, entry["node"]["probe"]);
     if (std::find(goal.nodes.begin(), goal.nodes.end(), other) != goal.nodes.end())
-      throw InputError(place + "/probe", "A node has no distance from itself.");
+      throw InputError(place + "/node/probe", "A node has no distance from itself.");
     goal.from = harmonic::OtherNode{other};
   }
   const double resolution = entry["resolution"], least = entry["at_least"];

@@ -37,14 +37,14 @@ base::ParameterSpec designConstraints() {
        optional(object("sphere", "From a sphere, outside (a circle in 2 dimensions).",
                        {vector("centre", "Its centre.", dimensions::length),
                         notNegative(number("radius", "", "Its radius.", dimensions::length))})),
-       optional(reference("probe", "From another node.", "probes")),
+       optional(object("node", "From another node.", {reference("probe", "Which one.", "probes")})),
        withDefault(
            positive(number("resolution", "",
                            "1/β of the smooth minimum -ln(Σ exp(-β distance)) / β over nodes and instants, which "
                            "is held: it is below the smallest distance by ln(their number) / β at most.",
                            dimensions::length)),
            1e-4)});
-  clearance.exactlyOne = {"plane", "sphere", "probe"};
+  clearance.exactlyOne = {"plane", "sphere", "node"};
   return optional(list(
       "constraints", "What a design must keep to; it is then found by Ipopt.",
       variant("constraint", "One condition.", {std::move(mass), std::move(strain), std::move(clearance)}), 1, 100));
