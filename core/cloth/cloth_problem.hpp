@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "core/cloth/motion_path.hpp"
 #include "core/cloth/strain_limiter.hpp"
+#include "core/mechanics/contact_body.hpp"
 #include "core/mechanics/model.hpp"
 
 namespace pliant::cloth {
+
+using mechanics::Body;
+using mechanics::Keyframe;
 
 /// Nodes that are held: where they rest, or on a path; let go at `release` [s].
 struct Pin {
@@ -17,17 +20,6 @@ struct Pin {
   std::vector<int> nodes;
   std::vector<Keyframe> path;  ///< turns are about the mean of the nodes' rest positions
   std::optional<double> release;
-};
-
-/// Something that the cloth lies on.
-struct Body {
-  std::string name;
-  Eigen::Matrix3Xd points;  ///< at rest [m]
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> edges;  ///< of a capsule; with neither triangles nor edges the points are spheres
-  double radius = 0;                      ///< of what is swept along points, edges and triangles [m]
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  std::vector<Keyframe> path;
 };
 
 /// Air that streams past. A triangle of area A with unit normal n, whose mean velocity is v, feels

@@ -38,24 +38,29 @@ double prescribedWork(const HarmonicBalanceProblem& problem, const Matrix& byCoe
 
 }  // namespace
 
+Vector directDerivative(const HarmonicBalanceProblem& problem, const ObjectiveValue& at,
+                        const std::vector<int>& parameters) {
+  const Model& model = problem.model();
+  Vector derivative = at.byParameters(parameters);
+  Matrix byOthers = at.byCoefficients;
+  byOthers(Eigen::all, model.dofs.freeCoordinates).setZero();
+  if (!byOthers.isZero(0))
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      derivative[static_cast<Eigen::Index>(i)] +=
+          prescribedWork(problem, byOthers, *model.parameters.at(static_cast<std::size_t>(parameters[i])));
+  return derivative;
+}
+
 DesignGradient designGradient(const HarmonicBalanceProblem& problem, const PeriodicMotion& motion,
                               const DesignObjective& objective, const std::vector<int>& parameters,
                               const ParameterJacobian& jacobian) {
   const Model& model = problem.model();
-  ObjectiveValue at = objective.evaluate(problem, motion.z);
-  DesignGradient result{at.value, at.byParameters(parameters), true};
+  const ObjectiveValue at = objective.evaluate(problem, motion.z);
+  DesignGradient result{at.value, directDerivative(problem, at, parameters), true};
   const Vector byMotion = problem.withoutLeftOut(at.byCoefficients(Eigen::all, model.dofs.freeCoordinates).reshaped());
-  at.byCoefficients(Eigen::all, model.dofs.freeCoordinates).setZero();
-  const auto count = static_cast<Eigen::Index>(parameters.size());
-  const auto parameterAt = [&](Eigen::Index i) -> const mechanics::DesignParameter& {
-    return *model.parameters.at(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)]));
-  };
-  if (!at.byCoefficients.isZero(0))
-    for (Eigen::Index i = 0; i < count; ++i)
-      result.gradient[i] += prescribedWork(problem, at.byCoefficients, parameterAt(i));
   if (byMotion.isZero(0)) return result;
   const Vector adjoint = adjointOf(problem, motion, byMotion);
-  if (adjoint.size() == 0) return {at.value, Vector::Zero(count), false};
+  if (adjoint.size() == 0) return {at.value, Vector::Zero(result.gradient.size()), false};
   result.gradient -= jacobian.transposedTimes(adjoint);
   return result;
 }

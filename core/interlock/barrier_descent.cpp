@@ -29,6 +29,8 @@ constexpr double firstGapOfMeshes = 0.01;
 
 }  // namespace
 
+int splitAtGap(double gap, double radius) { return gap > 0.03 * radius ? 1 : gap > 3e-3 * radius ? 2 : 4; }
+
 BarrierDescent::BarrierDescent(const CellContact& contact, const CellState& start, double radius,
                                const base::ExecutionContext* context)
     : contact_(contact),
@@ -120,6 +122,14 @@ CellState BarrierDescent::relax(const EquilibriumOptions& options, double tolera
   return state_;
 }
 
+CellEquilibrium BarrierDescent::settle(const CellContact::Barrier& barrier, double tolerance, int maximumIterations) {
+  CellEquilibrium result;
+  const Outcome outcome = minimize(barrier, tolerance, maximumIterations);
+  measure(barrier, result);
+  finish(outcome, barrier, result);
+  return result;
+}
+
 CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
   CellEquilibrium result;
   const double finalGap = options.finalGap * radius_;
@@ -151,8 +161,13 @@ CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
     // Meshes have to see their walls as they are: their steps end where the first of many parts has lost most of its
     // gap, and without its stiffness the next step would end there too.
     if (largest > 0 && !thin_) barrier.largestForce = 4 * largest;
-    barrier.split = predicted > 0.03 * radius_ ? 1 : predicted > 3e-3 * radius_ ? 2 : 4;
+    barrier.split = splitAtGap(predicted, radius_);
   }
+  finish(outcome, barrier, result);
+  return result;
+}
+
+void BarrierDescent::finish(Outcome outcome, const CellContact::Barrier& barrier, CellEquilibrium& result) const {
   result.state = state_;
   result.iterations = iterations_;
   result.weight = barrier.weight;
@@ -174,7 +189,6 @@ CellEquilibrium BarrierDescent::run(const EquilibriumOptions& options) {
       result.message = "cancelled";
       break;
   }
-  return result;
 }
 
 }  // namespace pliant::interlock

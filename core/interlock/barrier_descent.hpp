@@ -5,6 +5,9 @@
 
 namespace pliant::interlock {
 
+/// Into how many parts a barrier cuts each arc whose contacts have this mean gap; `radius`: smallest of all pieces [m].
+int splitAtGap(double gap, double radius);
+
 /// Minimises an objective under contact by a barrier that shrinks, with Newton steps of limited length: what statics of
 /// cells and of finite patches have in common. Those who derive from it say what the unknowns are.
 class BarrierDescent {
@@ -15,6 +18,9 @@ class BarrierDescent {
   CellEquilibrium run(const EquilibriumOptions& options);
   /// The barrier alone, at its widest, until Newton's decrement over the barrier's weight is below the tolerance.
   CellState relax(const EquilibriumOptions& options, double tolerance = 1e-6);
+  /// With one barrier that is kept, until Newton's decrement over its weight is below the tolerance or nothing lowers
+  /// it any more.
+  CellEquilibrium settle(const CellContact::Barrier& barrier, double tolerance, int maximumIterations);
   /// Adds what the way since a state before costs; null: nothing.
   void setFriction(const FrictionStep* friction) { friction_ = friction; }
   /// How hard the structure is pulled, over the lengths that its unknowns are.
@@ -66,6 +72,8 @@ class BarrierDescent {
   /// `step` made shorter so that pieces which are thin against it pass nothing by.
   double collisionFreeStep(const Eigen::VectorXd& velocity, double step, double range) const;
   void measure(const CellContact::Barrier& barrier, CellEquilibrium& result);
+  /// How it ended, and where.
+  void finish(Outcome outcome, const CellContact::Barrier& barrier, CellEquilibrium& result) const;
 
   const bool thin_;
   const base::ExecutionContext* context_;

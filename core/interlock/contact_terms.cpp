@@ -16,23 +16,25 @@ using Jacobian = ContactJacobian;
 
 }  // namespace
 
-bool ContactTerms::compute(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset,
+bool ContactTerms::compute(const PlacedPart& partA, const PlacedPart& partB, const Vector3d& between,
                            const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
                            bool wantHessian) {
-  const bool arcs = a.part->kind == PartKind::arc || b.part->kind == PartKind::arc;
-  const bool near = arcs ? computeArcs(a, b, offset, translation, barrier, wantGradient, wantHessian)
-                         : computeSimplices(a, b, offset, translation, barrier, wantGradient, wantHessian);
+  a = &partA;
+  b = &partB;
+  offset = between;
+  const bool arcs = partA.part->kind == PartKind::arc || partB.part->kind == PartKind::arc;
+  const bool near = arcs ? computeArcs(translation, barrier, wantGradient, wantHessian)
+                         : computeSimplices(translation, barrier, wantGradient, wantHessian);
   if (near && gap > 0 && wantHessian && force > barrier.largestForce) hessian *= barrier.largestForce / force;
   return near;
 }
 
 /// f(q, u) = ½|X_A - X_B|², D = min_u f: ∇D = f_q, ∇²D = f_qq - f_qu f_uu⁻¹ f_uq, of which d = sqrt(2D).
-bool ContactTerms::computeArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset,
-                               const Eigen::Vector2d& translation, const CellContact::Barrier& barrier,
+bool ContactTerms::computeArcs(const Eigen::Vector2d& translation, const CellContact::Barrier& barrier,
                                bool wantGradient, bool wantHessian) {
-  const ClosestArcs closest = closestArcs(a, b, offset);
+  const ClosestArcs closest = closestArcs(*a, *b, offset);
   const double distance = closest.distance();
-  gap = distance - a.part->radius - b.part->radius;
+  gap = distance - a->part->radius - b->part->radius;
   if (!(gap < barrier.range)) return false;
   if (!(gap > 0)) return true;
   const mechanics::BarrierFunction function(gap, barrier.range);
@@ -40,7 +42,7 @@ bool ContactTerms::computeArcs(const PlacedPart& a, const PlacedPart& b, const V
   value = scale * function.value;
   force = -scale * function.slope;
   normal = closest.between / distance;
-  place = closest.armA - (a.part->radius + 0.5 * gap) * normal;
+  place = closest.armA - (a->part->radius + 0.5 * gap) * normal;
   if (!wantGradient && !wantHessian) return true;
 
   const Jacobian jacobian = contactJacobian(closest.armA, closest.armB, translation);
@@ -78,12 +80,11 @@ bool ContactTerms::computeArcs(const PlacedPart& a, const PlacedPart& b, const V
   return true;
 }
 
-bool ContactTerms::computeSimplices(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset,
-                                    const Eigen::Vector2d& translation, const CellContact::Barrier& barrier,
+bool ContactTerms::computeSimplices(const Eigen::Vector2d& translation, const CellContact::Barrier& barrier,
                                     bool wantGradient, bool wantHessian) {
-  const SimplexParts parts = simplexParts(a, b, offset);
+  const SimplexParts parts = simplexParts(*a, *b, offset);
   const auto closest = geometry::closestPoints(parts.kind, parts.corners);
-  gap = std::sqrt(closest.squaredDistance) - a.part->radius - b.part->radius;
+  gap = std::sqrt(closest.squaredDistance) - a->part->radius - b->part->radius;
   if (!(gap < barrier.range)) return false;
   if (!(gap > 0)) return true;
   mechanics::ContactElement element{

@@ -17,19 +17,20 @@ struct ContactTerms {
   Matrix hessian;
   Eigen::Vector3d place;   ///< midway between the surfaces, from A's origin [m]
   Eigen::Vector3d normal;  ///< from B to A
+  /// What `compute` was given last.
+  const PlacedPart *a = nullptr, *b = nullptr;
+  Eigen::Vector3d offset;
 
-  /// False if the gap is not below the range; then nothing is set but the gap. `offset` is origin_A - origin_B,
+  /// False if the gap is not below the range; then nothing is set but the gap. `between` is origin_A - origin_B,
   /// `translation` the lattice vector at rest by which B is moved [m]. Of two parts that overlap only the gap is set.
-  bool compute(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset,
+  bool compute(const PlacedPart& partA, const PlacedPart& partB, const Eigen::Vector3d& between,
                const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
                bool wantHessian);
 
  private:
-  bool computeArcs(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset,
-                   const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
+  bool computeArcs(const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
                    bool wantHessian);
-  bool computeSimplices(const PlacedPart& a, const PlacedPart& b, const Eigen::Vector3d& offset,
-                        const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
+  bool computeSimplices(const Eigen::Vector2d& translation, const CellContact::Barrier& barrier, bool wantGradient,
                         bool wantHessian);
 };
 

@@ -16,15 +16,20 @@ constexpr double smallestStretch = 0.05, largestStretch = 20;
 
 }  // namespace
 
+MatrixXd freeCoordinates(const CellContact& contact, const StrainDrive& drive, double latticeScale) {
+  const int size = contact.coordinateCount(), elements = (size - 3) / 6;
+  const int free = static_cast<int>(drive.directions.cols());
+  MatrixXd basis = MatrixXd::Zero(size, 6 * elements - 3 + free);
+  for (int i = 3; i < 6 * elements; ++i) basis(i, i - 3) = i % 6 < 3 ? 1 : 1 / contact.partsOf(i / 6).reach();
+  for (int k = 0; k < free; ++k)
+    basis.block<3, 1>(size - 3, 6 * elements - 3 + k) = drive.directions.col(k) / latticeScale;
+  return basis;
+}
+
 EquilibriumSearch::EquilibriumSearch(const CellSolver& solver, const CellState& start, const StrainDrive& drive,
                                      const base::ExecutionContext* context)
     : BarrierDescent(solver.contact_, start, solver.radius_, context), solver_(solver), drive_(drive) {
-  const int size = contact_.coordinateCount(), elements = (size - 3) / 6;
-  const int free = static_cast<int>(drive.directions.cols());
-  basis_ = MatrixXd::Zero(size, 6 * elements - 3 + free);
-  for (int i = 3; i < 6 * elements; ++i) basis_(i, i - 3) = i % 6 < 3 ? 1 : 1 / contact_.partsOf(i / 6).reach();
-  for (int k = 0; k < free; ++k)
-    basis_.block<3, 1>(size - 3, 6 * elements - 3 + k) = drive.directions.col(k) / solver.latticeScale_;
+  basis_ = freeCoordinates(contact_, drive, solver.latticeScale_);
 }
 
 double EquilibriumSearch::objective(const CellState& state) const {

@@ -4,6 +4,10 @@
 
 namespace pliant::interlock {
 
+/// Coordinates of a velocity = this · unknowns, which are lengths: all elements but the translation of the first, and
+/// the strain along the drive's directions.
+Eigen::MatrixXd freeCoordinates(const CellContact& contact, const StrainDrive& drive, double latticeScale);
+
 /// One solve of CellSolver: the state on its way.
 class EquilibriumSearch final : public BarrierDescent {
  public:
@@ -31,9 +35,7 @@ class EquilibriumSearch final : public BarrierDescent {
 
   const CellSolver& solver_;
   const StrainDrive drive_;
-  /// Coordinates = basis · unknowns, which are lengths: all elements but the translation of the first, and the strain
-  /// along the drive's directions.
-  Eigen::MatrixXd basis_;
+  Eigen::MatrixXd basis_;     ///< freeCoordinates
   Eigen::VectorXd gradient_;  ///< by the coordinates, at state_
   Eigen::MatrixXd hessian_;
 };

@@ -49,12 +49,11 @@ void checkMaterial(const MacroMaterial& material) {
 
 }  // namespace
 
-MacroSimulation::MacroSimulation(MacroSheet sheet, const MacroOptions& options)
-    : sheet_(std::move(sheet)), options_(options) {
+MacroSimulation::MacroSimulation(MacroSheet sheet, const MacroOptions& options, MacroContact contact)
+    : sheet_(std::move(sheet)), options_(options), contact_(std::move(contact)) {
   geometry::checkMesh(sheet_.mesh);
   const Eigen::Matrix3Xd& points = sheet_.mesh.points;
-  const double size = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-  if (points.row(2).cwiseAbs().maxCoeff() > 1e-9 * size)
+  if (points.row(2).cwiseAbs().maxCoeff() > 1e-9 * size())
     throw base::InputError("", "A sheet of interlocking material must lie in the plane z = 0 at rest.");
   if (sheet_.materials.empty()) throw base::InputError("", "A sheet of interlocking material needs a material.");
   for (const MacroMaterial& material : sheet_.materials) checkMaterial(material);
@@ -99,6 +98,41 @@ MacroSimulation::MacroSimulation(MacroSheet sheet, const MacroOptions& options)
   if (auto bending = mechanics::makeCurvatureLimit(triangles_, function)) limits.push_back(std::move(bending));
   elastic_ = assemblerOf(rest(), elastic);
   if (!limits.empty()) limits_ = assemblerOf(rest(), limits);
+}
+
+double MacroSimulation::size() const {
+  return (sheet_.mesh.points.rowwise().maxCoeff() - sheet_.mesh.points.rowwise().minCoeff()).norm();
+}
+
+std::shared_ptr<mechanics::ContactBarrier> MacroSimulation::contactFrom(const Vector& start,
+                                                                        const Eigen::Matrix3Xd& bodyPoints) const {
+  constexpr double gravity = 9.81;
+  auto contact =
+      mechanics::makeSheetContact({sheet_.mesh.triangles, contact_.bodies, contact_.distance, contact_.selfContact},
+                                  sheet_.mesh.points, masses_.mean() * gravity);
+  if (!contact) return nullptr;
+  Eigen::Matrix3Xd all(3, masses_.size() + bodyPoints.cols());
+  all << start.reshaped(3, masses_.size()), bodyPoints;
+  contact->requireFree(all);
+  contact->update(all);
+  return contact;
+}
+
+void MacroSimulation::judgeContact(MacroState& state, mechanics::ContactBarrier* contact,
+                                   const Eigen::Matrix3Xd& bodyPoints, const Eigen::Vector3d& up) const {
+  if (!contact) return;
+  Eigen::Matrix3Xd all(3, masses_.size() + bodyPoints.cols());
+  all << state.positions.reshaped(3, masses_.size()), bodyPoints;
+  contact->update(all);
+  state.smallestGap = contact->smallestGap(all);
+  state.supported = 0;
+  for (const mechanics::Contact& one : contact->contacts()) {
+    const auto& bodies = contact->primitives().geometry().bodies;
+    const bool first = bodies[static_cast<std::size_t>(one.pair.nodes[0])] == 0;
+    const int last = one.pair.nodes[static_cast<std::size_t>(geometry::cornerCount(one.pair.kind) - 1)];
+    const bool second = bodies[static_cast<std::size_t>(last)] == 0;
+    if (first != second) state.supported += (first ? 1 : -1) * one.force.dot(up);
+  }
 }
 
 MacroSimulation::Surroundings MacroSimulation::surroundingsOf(const MacroLoads& loads) const {
@@ -153,11 +187,13 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
   solvers::EnergyMinimizer minimizer(terms(), held(loads));
   MacroState state;
   state.positions = start ? *start : rest();
-  const Vector from = rest();
-  const double size = (sheet_.mesh.points.rowwise().maxCoeff() - sheet_.mesh.points.rowwise().minCoeff()).norm();
+  const Vector from = state.positions;
+  const Eigen::Matrix3Xd bodyPoints = mechanics::bodyPointsAt(contact_.bodies, 0);
+  const auto contact = contactFrom(from, bodyPoints);
+  minimizer.setContact(contact, bodyPoints);
   const bool isBarrier = limits_ && options_.limits == StrainLimitFunction::Kind::barrier;
   state.barrier = isBarrier ? firstBarrier * surroundings.force.reshaped(3, masses_.size()).colwise().norm().sum() *
-                                  size / areas_.sum()
+                                  size() / areas_.sum()
                             : options_.penalty;
   std::vector<base::IterationRecord> records;
   int level = 0;
@@ -166,6 +202,12 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
     solvers::EnergyMinimizerOptions options;
     options.tolerance = last ? options_.tolerance : looseTolerance;
     options.maximumIterations = options_.maximumIterations;
+    if (options_.pathSpacing > 0)
+      options.visit = [&](const Vector& x) {
+        if (state.path.empty() ||
+            (x - state.path.back()).reshaped(3, masses_.size()).colwise().norm().maxCoeff() >= options_.pathSpacing)
+          state.path.push_back(x);
+      };
     state.report = minimizer.minimize(state.positions, surroundings, options, context);
     for (base::IterationRecord record : state.report.iterations) {
       record.iteration = static_cast<int>(records.size());
@@ -179,27 +221,9 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
       state.barrier /= barrierDecay;  // once more with this one, to the tolerance
     }
   }
+  judgeContact(state, contact.get(), bodyPoints, -loads.gravity.stableNormalized());
   state.report.iterations = std::move(records);
   state.report.seconds = watch.seconds();
-  return state;
-}
-
-MacroState MacroSimulation::step(const Vector& positions, Vector& velocities, double timeStep, double barrier,
-                                 const MacroLoads& loads, base::ExecutionContext& context) const {
-  Surroundings surroundings = surroundingsOf(loads);
-  surroundings.target = positions + timeStep * velocities;
-  surroundings.inertia = masses_.transpose().replicate(3, 1).reshaped() / (timeStep * timeStep);
-  solvers::EnergyMinimizer minimizer(terms(), held(loads));
-  MacroState state;
-  state.positions = positions;
-  state.barrier = barrier;
-  if (limits_) minimizer.setWeight(1, barrier);
-  state.report =
-      minimizer.minimize(state.positions, surroundings,
-                         {.tolerance = options_.tolerance, .maximumIterations = options_.maximumIterations}, context);
-  velocities = (state.positions - positions) / timeStep;
-  state.work = surroundings.force.dot(state.positions - positions);
-  judge(state);
   return state;
 }
 

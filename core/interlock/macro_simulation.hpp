@@ -1,9 +1,12 @@
 #pragma once
 
+#include <limits>
+
 #include "core/base/execution_context.hpp"
 #include "core/base/solver_report.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/mechanics/admissible_strain_set.hpp"
+#include "core/mechanics/contact_body.hpp"
 #include "core/mechanics/strain_limits.hpp"
 #include "core/solvers/energy_minimizer.hpp"
 
@@ -30,6 +33,13 @@ struct MacroSheet {
   std::vector<double> angleOf;  ///< of the material's first axis, per triangle [rad]; empty: 0
 };
 
+/// What a sheet may not go through.
+struct MacroContact {
+  std::vector<mechanics::Body> bodies;
+  double distance = 1e-3;    ///< gap below which contact begins to push [m]
+  bool selfContact = false;  ///< whether the sheet also touches itself
+};
+
 struct MacroLoads {
   Vector force;                                       ///< on all coordinates [N]; empty: none
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²]
@@ -43,6 +53,8 @@ struct MacroOptions {
   /// The barrier shrinks until what it could still yield is below this fraction of the work that loads have done.
   double remaining = 1e-5;
   int maximumIterations = 500;  ///< of each barrier
+  /// What MacroState::path keeps is this far from each other at least [m]; 0: nothing is kept.
+  double pathSpacing = 0;
 };
 
 /// The sheet at rest under its loads, and how near its triangles are to their limits.
@@ -56,15 +68,22 @@ struct MacroState {
   double barrier = 0;    ///< the last coefficient [J/m²]; of the penalty its c
   double remaining = 0;  ///< how much lower the energy could be without the barrier's room, to first order [J]
   double work = 0;       ///< of the loads from rest [J]
+  /// Between the sheet and bodies and itself [m]; infinite: there is nothing near that it may touch.
+  double smallestGap = std::numeric_limits<double>::infinity();
+  double supported = 0;  ///< Σ of the forces with which bodies push against the sheet's weight [N]
+  /// Positions on the way, the start first and the last not among them: all within the limits, and none through
+  /// anything.
+  std::vector<Vector> path;
 };
 
-/// Static equilibria and motion of a sheet of constant-strain triangles and four-triangle curvatures (Gingold et al.
-/// 2004) whose strains stay within their admissible sets.
+/// Static equilibria of a sheet of constant-strain triangles and four-triangle curvatures (Gingold et al.
+/// 2004) whose strains stay within their admissible sets and which goes neither through bodies nor through itself. For
+/// its motion see MacroMotion.
 class MacroSimulation {
  public:
   /// Throws base::InputError (location empty) for a mesh that is not flat, a number that makes no sense, or a material
-  /// that does not allow for its rest shape.
-  MacroSimulation(MacroSheet sheet, const MacroOptions& options);
+  /// that does not allow for its rest shape, or a contact distance that is not above 0.
+  MacroSimulation(MacroSheet sheet, const MacroOptions& options, MacroContact contact = {});
 
   const MacroSheet& sheet() const { return sheet_; }
   const std::vector<mechanics::LimitedTriangle>& triangles() const { return triangles_; }
@@ -72,23 +91,28 @@ class MacroSimulation {
   const Vector& masses() const { return masses_; }
   Vector rest() const { return sheet_.mesh.points.reshaped(); }
 
-  /// Static equilibrium, from `start`, which must be within the limits where there is a barrier; null: from rest.
+  /// Static equilibrium, from `start`, which must be within the limits where there is a barrier, and free of bodies and
+  /// of itself; null: from rest. Throws base::InputError (location empty) if it meets something.
   MacroState equilibrium(const MacroLoads& loads, const Vector* start, base::ExecutionContext& context) const;
 
-  /// One step of implicit Euler from positions and velocities, within the limits at its end as at its start.
-  MacroState step(const Vector& positions, Vector& velocities, double timeStep, double barrier, const MacroLoads& loads,
-                  base::ExecutionContext& context) const;
-
  private:
+  friend class MacroMotion;
   using Surroundings = solvers::EnergyMinimizer::Surroundings;
   Surroundings surroundingsOf(const MacroLoads& loads) const;
   std::vector<char> held(const MacroLoads& loads) const;
   std::vector<solvers::EnergyMinimizer::Term> terms() const;
+  /// A barrier of its own, for positions from where all is free of each other; null: nothing can touch. Throws as
+  /// `equilibrium`.
+  std::shared_ptr<mechanics::ContactBarrier> contactFrom(const Vector& start, const Eigen::Matrix3Xd& bodyPoints) const;
+  void judgeContact(MacroState& state, mechanics::ContactBarrier* contact, const Eigen::Matrix3Xd& bodyPoints,
+                    const Eigen::Vector3d& up) const;
+  double size() const;
   /// What shrinking the barrier to nothing could yield, to first order: Σ area c g ψ'(g) (1 - g).
   void judge(MacroState& state) const;
 
   MacroSheet sheet_;
   MacroOptions options_;
+  MacroContact contact_;
   std::vector<mechanics::LimitedTriangle> triangles_;
   Vector areas_;   ///< per triangle [m²]
   Vector masses_;  ///< per node [kg]

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/interlock/arc_places.hpp"
+
 namespace pliant::interlock {
 
 namespace {
@@ -64,7 +66,7 @@ void addFree(ClosestArcs& closest, bool ofA, const Vector3d& tangent, double ben
   closest.bend[closest.freeCount++] = bend;
 }
 
-ClosestArcs betweenArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset) {
+ClosestArcs betweenArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, ArcPlaces& places) {
   const geometry::Corners chords =
       (geometry::Corners() << a.corners.leftCols<2>().colwise() + offset, b.corners.leftCols<2>()).finished();
   const auto straight = geometry::closestPoints(SimplexPair::edgeEdge, chords);
@@ -99,13 +101,15 @@ ClosestArcs betweenArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d
   }
   if (s != last) derivativesAt(s);
   ClosestArcs closest{onA.place + offset - onB.place, onA.place, onB.place};
+  places.parameterA = s;
+  places.parameterB = t;
   if (isInside(*a.part, s)) addFree(closest, true, onA.tangent, closest.between.dot(onA.second));
   if (isInside(*b.part, t)) addFree(closest, false, onB.tangent, -closest.between.dot(onB.second));
   return closest;
 }
 
 /// Arc a against a point, segment or triangle.
-ClosestArcs betweenArcAndSimplex(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset) {
+ClosestArcs betweenArcAndSimplex(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, ArcPlaces& places) {
   const SimplexPair pair = pairWithPoint(b.part->kind);
   geometry::Corners corners;
   corners.rightCols<3>() = b.corners;
@@ -140,7 +144,12 @@ ClosestArcs betweenArcAndSimplex(const PlacedPart& a, const PlacedPart& b, const
   if (s != last) derivativesAt(s);
   ClosestArcs closest{corners * onSimplex.weights, onA.place, -(b.corners * onSimplex.weights.tail<3>())};
   if (isInside(*a.part, s)) addFree(closest, true, onA.tangent, closest.between.dot(onA.second));
-  for (int k = 0; k < onSimplex.parameterCount; ++k) addFree(closest, false, tangents.col(k), 0);
+  places.parameterA = s;
+  places.weights = -onSimplex.weights.tail<3>();
+  for (int k = 0; k < onSimplex.parameterCount; ++k) {
+    places.slopes.col(closest.freeCount) = -onSimplex.slopes.col(k).tail<3>();
+    addFree(closest, false, tangents.col(k), 0);
+  }
   return closest;
 }
 
@@ -153,10 +162,19 @@ ClosestArcs swapped(ClosestArcs closest) {
 
 }  // namespace
 
+ClosestArcs closestArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, ArcPlaces& places) {
+  if (a.part->kind != PartKind::arc) {
+    const ClosestArcs closest = swapped(betweenArcAndSimplex(b, a, -offset, places));
+    std::swap(places.parameterA, places.parameterB);
+    return closest;
+  }
+  if (b.part->kind != PartKind::arc) return betweenArcAndSimplex(a, b, offset, places);
+  return betweenArcs(a, b, offset, places);
+}
+
 ClosestArcs closestArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset) {
-  if (a.part->kind != PartKind::arc) return swapped(betweenArcAndSimplex(b, a, -offset));
-  if (b.part->kind != PartKind::arc) return betweenArcAndSimplex(a, b, offset);
-  return betweenArcs(a, b, offset);
+  ArcPlaces places;
+  return closestArcs(a, b, offset, places);
 }
 
 bool areApart(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, double distance) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/scene/body_builder.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 
@@ -16,18 +17,6 @@ namespace {
 
 Eigen::Vector3d spaceVector(const Json& values) {
   return {values[0].get<double>(), values[1].get<double>(), values[2].get<double>()};
-}
-
-/// Axis times angle.
-Eigen::Vector3d rotationOf(const Json& entry) {
-  return entry["angle"].get<double>() * spaceVector(entry["axis"]).stableNormalized();
-}
-
-std::vector<cloth::Keyframe> pathOf(const Json& entry) {
-  std::vector<cloth::Keyframe> path;
-  for (const Json& keyframe : entry["path"])
-    path.push_back({keyframe["time"], spaceVector(keyframe["translation"]), rotationOf(keyframe)});
-  return path;
 }
 
 class ClothBuilder {
@@ -43,7 +32,7 @@ class ClothBuilder {
     problem_.model = model_;
     addTriangles();
     forEachEntry("stretch_limits", [&](const Json& entry, const std::string& pointer) { addLimit(entry, pointer); });
-    forEachEntry("bodies", [&](const Json& entry, const std::string& pointer) { addBody(entry, pointer); });
+    problem_.bodies = buildBodies(scene_);
     forEachEntry("loads", [&](const Json& entry, const std::string&) {
       if (entry["type"] != "wind") return;
       if (problem_.wind) throw InputError("", "studies of cloth know one wind alone");
@@ -80,7 +69,7 @@ class ClothBuilder {
         locked.insert(nodes.begin(), nodes.end());
         return;
       }
-      cloth::Pin pin{entry["name"], nodes, pathOf(entry), std::nullopt};
+      cloth::Pin pin{entry["name"], nodes, motionOf(entry), std::nullopt};
       if (entry.contains("release")) pin.release = entry["release"].get<double>();
       for (const int node : nodes) {
         if (!pinned.insert(node).second)
@@ -198,42 +187,6 @@ class ClothBuilder {
                                          "edges nearer to each other.");
       }
     }
-  }
-
-  void addBody(const Json& entry, const std::string& pointer) {
-    cloth::Body body;
-    body.name = entry["name"];
-    body.path = pathOf(entry);
-    if (entry["type"] == "sphere") {
-      body.points = body.centre = spaceVector(entry["center"]);
-      body.radius = entry["radius"];
-    } else if (entry["type"] == "capsule") {
-      body.points.resize(3, 2);
-      body.points << spaceVector(entry["from"]), spaceVector(entry["to"]);
-      if (body.points.col(0) == body.points.col(1))
-        throw InputError(pointer + "/to", "A capsule needs two different ends; use a sphere.");
-      body.edges = {{0, 1}};
-      body.centre = body.points.rowwise().mean();
-      body.radius = entry["radius"];
-    } else {
-      const auto file = scene_.directory() / std::filesystem::path(entry["file"].get<std::string>());
-      // Surfaces made of corners that only look joined have gaps that edges find.
-      geometry::SurfaceMesh mesh = locate(pointer + "/file", [&] {
-        const geometry::SurfaceMesh read = geometry::readMesh(file, entry["scale"]);
-        const double size = (read.points.rowwise().maxCoeff() - read.points.rowwise().minCoeff()).norm();
-        return geometry::weldMesh(read, 1e-6 * size);
-      });
-      body.points = std::move(mesh.points);
-      if (entry.contains("rotation")) {
-        const cloth::Keyframe turn{0, Eigen::Vector3d::Zero(), rotationOf(entry["rotation"])};
-        body.points = cloth::placementAt({turn}, 0).apply(body.points, Eigen::Vector3d::Zero());
-      }
-      body.points.colwise() += spaceVector(entry["position"]);
-      body.triangles = std::move(mesh.triangles);
-      body.centre = body.points.rowwise().mean();
-      body.radius = entry["thickness"];
-    }
-    problem_.bodies.push_back(std::move(body));
   }
 
   void finishSheet() {

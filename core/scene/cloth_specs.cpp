@@ -115,11 +115,15 @@ ParameterSpec bodySpecs() {
   const ParameterSpec path = motion("How it moves.");
   const ParameterSpec radius = positive(number("radius", "", "Radius.", dimensions::length));
   return variant(
-      "body", "What cloth lies on or is moved by, in studies of cloth.",
+      "body", "What cloth and sheets of interlocking materials lie on or are moved by, in studies of these.",
       {object("sphere", "A sphere.", {name(), inSpace("center", "Its centre.", dimensions::length), radius, path}),
        object("capsule", "A cylinder with round ends.",
               {name(), inSpace("from", "The centre of one end.", dimensions::length),
                inSpace("to", "The centre of the other.", dimensions::length), radius, path}),
+       object("ground", "A square plate, of no thickness.",
+              {name(), withDefault(inSpace("point", "Its middle.", dimensions::length), {0, 0, 0}),
+               withDefault(inSpace("normal", "Across it; only the direction counts.", dimensions::none), {0, 0, 1}),
+               withDefault(positive(number("size", "", "Of a side.", dimensions::length)), "2 m"), path}),
        object("mesh", "Triangles read from an STL, OBJ, PLY or glTF file.",
               {name(), file("file", "The file, relative to the scene."), scale("Metres per unit of the file."),
                withDefault(inSpace("position", "Where the file's origin is put.", dimensions::length), {0, 0, 0}),
@@ -135,11 +139,11 @@ ParameterSpec bodySpecs() {
 }
 
 ParameterSpec contactSpec() {
-  return object("contact", "Contact in studies of cloth.",
+  return object("contact", "Contact in studies of cloth and of sheets of interlocking materials.",
                 {withDefault(positive(number("distance", "", "Gap below which surfaces begin to push each other.",
                                              dimensions::length)),
                              "1 mm"),
-                 withDefault(boolean("self_contact", "Whether the cloth also touches itself."), false)});
+                 withDefault(boolean("self_contact", "Whether the sheet also touches itself."), false)});
 }
 
 ParameterSpec pinSpec() {

@@ -6,6 +6,7 @@
 #include "core/scene/composed_cell.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/unchecked_cell.hpp"
 
 namespace pliant::scene {
 
@@ -66,6 +67,11 @@ DraftCell draftCell(const Scene& scene, std::size_t index) {
   draft.cell.name = entry["name"];
   draft.supercell = supercell(draft.cell, entry["supercell"][0], entry["supercell"][1]);
   return draft;
+}
+
+interlock::UnitCell uncheckedCell(const Json& entry, const std::string& pointer,
+                                  const std::filesystem::path& directory) {
+  return supercell(cellFrom(entry, pointer, directory), entry["supercell"][0], entry["supercell"][1]);
 }
 
 mechanics::Model cellPicture(const Scene& scene) {

@@ -1,14 +1,11 @@
 #include "core/scene/interlock_studies.hpp"
 
 #include <numbers>
-#include <optional>
 
 #include "core/base/error.hpp"
-#include "core/scene/boundary_shards.hpp"
+#include "core/scene/boundary_study.hpp"
 #include "core/scene/interlock_result.hpp"
 #include "core/scene/interlock_study.hpp"
-#include "core/scene/resumable_study.hpp"
-#include "core/scene/sharded_study.hpp"
 
 namespace pliant::scene {
 
@@ -108,44 +105,17 @@ class StretchGridStudy final : public InterlockStudy {
   }
 };
 
-class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy, public ResumableStudy {
+class StretchBoundaryStudy final : public BoundaryStudy<InterlockStudy, StretchBoundaryResult> {
  public:
-  using InterlockStudy::InterlockStudy;
-
-  std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
-    std::optional<interlock::BoundaryFile> file;
-    if (options_.contains("checkpoint")) file.emplace(directory_ / options_["checkpoint"].get<std::string>(), key());
-    const auto session = memory_ ? memory_ : std::make_shared<interlock::KnownStates>();
-    auto result = file ? resultOf(*file, file->recalledCount(), nullptr, context, observe)
-                       : resultOf(*session, session->count(), session, context, observe);
-    if (observe) observe(result);
-    return result;
-  }
-
-  void goOnFrom(const Result& before) override {
-    const auto* result = dynamic_cast<const StretchBoundaryResult*>(&before);
-    if (!result || !result->memory || result->termination != TerminationType::cancelled) return;
-    const Provenance& other = result->provenance;
-    if (other.version == provenance_.version && other.sceneHash == provenance_.sceneHash && other.options == options_)
-      memory_ = result->memory;
-  }
-
-  const ShardedStudy* sharded() const override { return this; }
-  TerminationType runShard(const base::Shard& shard, const std::filesystem::path& file,
-                           base::ExecutionContext& context) const override {
-    const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    return runBoundaryShard(interlock::StretchedCell(solver), boundaryOptions(), key(), shard, file, context);
-  }
-  std::shared_ptr<const Result> merge(const std::vector<std::filesystem::path>& files,
-                                      base::ExecutionContext& context) const override {
-    const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    interlock::KnownStates known;
-    readBoundaryShards(interlock::StretchedCell(solver), boundaryOptions(), key(), files, known);
-    return resultOf(known, known.count(), nullptr, context, {});
-  }
+  using BoundaryStudy::BoundaryStudy;
 
  private:
-  interlock::BoundaryOptions boundaryOptions() const {
+  void withSubject(StretchBoundaryResult&, const Use& use) const override {
+    const interlock::CellSolver solver(*cell_, equilibriumOptions());
+    use(interlock::StretchedCell(solver));
+  }
+
+  interlock::BoundaryOptions boundaryOptions() const override {
     interlock::BoundaryOptions options;
     options.subdivisions = options_["subdivisions"];
     options.perturbation = options_["perturbation"];
@@ -156,34 +126,6 @@ class StretchBoundaryStudy final : public InterlockStudy, public ShardedStudy, p
     options.useSymmetries = options_["use_symmetries"];
     return options;
   }
-
-  /// `session`: for a later run to go on from, if this one is cancelled.
-  std::shared_ptr<const StretchBoundaryResult> resultOf(interlock::BoundaryMemory& memory, int recalled,
-                                                        const std::shared_ptr<interlock::KnownStates>& session,
-                                                        base::ExecutionContext& context,
-                                                        const ResultObserver& observe) const {
-    const base::Stopwatch watch;
-    const auto resultWith = [&](interlock::StrainSpaceBoundary boundary, TerminationType termination) {
-      auto result = std::make_shared<StretchBoundaryResult>();
-      result->recalled = recalled;
-      if (termination == TerminationType::cancelled) result->memory = session;
-      const std::string message = boundary.message;
-      result->boundary = std::move(boundary);
-      finish(*result, termination, message, watch);
-      return result;
-    };
-    interlock::BoundaryObserver observeBoundary;
-    if (observe)
-      observeBoundary = [&](const interlock::StrainSpaceBoundary& soFar) {
-        observe(resultWith(soFar, TerminationType::cancelled));
-      };
-    const interlock::CellSolver solver(*cell_, equilibriumOptions());
-    auto boundary = interlock::computeBoundary(solver, boundaryOptions(), context, &memory, observeBoundary);
-    const TerminationType termination = boundary.termination;
-    return resultWith(std::move(boundary), termination);
-  }
-
-  std::shared_ptr<interlock::KnownStates> memory_;  ///< of a cancelled run; null: none
 };
 
 }  // namespace

@@ -49,6 +49,7 @@ std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem
     sheet->materials.emplace_back();
     result.sheet = std::move(sheet);
     result.clamped = summary.at("clamped").get<std::vector<int>>();
+    result.loaded = summary.value("loaded", std::vector<int>());
     state.violation = summary.at("violation");
     state.work = summary.at("work");
     state.remaining = summary.at("remaining");

@@ -33,6 +33,7 @@ Json MacroResult::summary() const {
   json["nodes"] = sheet->mesh.points.cols();
   json["triangles"] = sheet->mesh.triangles.size();
   json["clamped"] = clamped;
+  json["loaded"] = loaded;
   json["iterations"] = state.report.iterations.empty() ? 0 : state.report.iterations.size() - 1;
   json["residual"] = state.report.residual();
   json["work"] = state.work;

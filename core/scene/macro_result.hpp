@@ -29,6 +29,7 @@ class MacroResult final : public InterlockResult {
   std::shared_ptr<const interlock::MacroSheet> sheet;
   interlock::MacroState state;
   std::vector<int> clamped;
+  std::vector<int> loaded;       ///< nodes that carry loads
   Eigen::Matrix3Xd deflections;  ///< of the nodes that carry loads [m]
 
   using Native = NativeComparison;

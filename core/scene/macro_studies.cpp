@@ -77,10 +77,9 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     interlock::MacroLoads loads;
     loads.gravity = vectorOf(options_["gravity"]);
     loads.force = interlock::Vector::Zero(sheet.mesh.points.size());
-    std::vector<int> loaded;
     for (const Json& load : options_["loads"]) {
-      loaded.push_back(nearest(sheet.mesh.points, planeOf(load["point"])));
-      loads.force.segment<3>(3 * Index{loaded.back()}) += vectorOf(load["force"]);
+      result->loaded.push_back(nearest(sheet.mesh.points, planeOf(load["point"])));
+      loads.force.segment<3>(3 * Index{result->loaded.back()}) += vectorOf(load["force"]);
     }
     for (const Json& clamp : options_["clamps"]) {
       const std::vector<int> nodes = within(sheet.mesh.points, clamp);
@@ -90,7 +89,7 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     context.setRange(options_.contains("stretch_limits") ? 0.05 : 0.6, options_["native"] ? 0.8 : 1);
     result->state = simulation.equilibrium(loads, nullptr, context);
     result->deflections =
-        moved(result->state.positions.reshaped(3, sheet.mesh.points.cols()), sheet.mesh.points, loaded);
+        moved(result->state.positions.reshaped(3, sheet.mesh.points.cols()), sheet.mesh.points, result->loaded);
     TerminationType termination = result->state.report.termination;
     if (options_["native"] && termination != TerminationType::cancelled) {
       context.setRange(0.8, 1);

@@ -26,6 +26,8 @@ constexpr double mostShift = 1e8;
 /// Armijo's condition, and where the line search gives up.
 constexpr double descentAsked = 1e-4;
 constexpr double smallestStep = 1e-10;
+/// Contacts are foreseen whose gap is by this part of the range above it.
+constexpr double foresight = 0.3;
 /// Decreases below this, relative to the energy, drown in rounding; then the residual decides.
 constexpr double roundingOfEnergy = 1e-13;
 
@@ -38,28 +40,48 @@ Eigen::Index slotOf(const math::BlockCholesky& cholesky, int vertexRow, int vert
 }  // namespace
 
 EnergyMinimizer::EnergyMinimizer(std::vector<Term> terms, std::vector<char> heldNodes)
-    : terms_(std::move(terms)), held_(std::move(heldNodes)), entries_(terms_.size()) {
-  std::vector<int> vertex(held_.size(), -1);
+    : terms_(std::move(terms)), held_(std::move(heldNodes)), vertex_(held_.size(), -1), entries_(terms_.size()) {
   for (std::size_t node = 0; node < held_.size(); ++node) {
     if (held_[node]) continue;
-    vertex[node] = static_cast<int>(free_.size());
+    vertex_[node] = static_cast<int>(free_.size());
     free_.push_back(static_cast<int>(node));
   }
-  if (free_.empty()) return;
-  std::vector<std::array<int, 2>> pairs;
   for (const Term& term : terms_)
     for (int s = 0; s < term.energy->entryCount(); ++s) {
       const int row = term.energy->rows()[s], column = term.energy->columns()[s];
       if (row % 3 != 0 || column % 3 != 0 || row == column) continue;
-      if (vertex[row / 3] >= 0 && vertex[column / 3] >= 0) pairs.push_back({vertex[row / 3], vertex[column / 3]});
+      if (vertex_[row / 3] >= 0 && vertex_[column / 3] >= 0) pairs_.push_back({vertex_[row / 3], vertex_[column / 3]});
     }
-  cholesky_.emplace(static_cast<int>(free_.size()), pairs);
+  if (!free_.empty()) analyse();
+}
+
+void EnergyMinimizer::setContact(std::shared_ptr<mechanics::ContactBarrier> contact, Eigen::Matrix3Xd bodyPoints) {
+  contact_ = std::move(contact);
+  bodyPoints_ = std::move(bodyPoints);
+}
+
+void EnergyMinimizer::analyse() {
+  contactPairs_.clear();
+  if (contact_) {
+    for (const auto& [a, b] : contact_->coupledNodes(foresight * contact_->options().range)) {
+      const auto [q, p] = std::minmax(vertex_[a], vertex_[b]);
+      if (q >= 0) contactPairs_.push_back({p, q});
+    }
+    std::sort(contactPairs_.begin(), contactPairs_.end());
+    contactPairs_.erase(std::unique(contactPairs_.begin(), contactPairs_.end()), contactPairs_.end());
+  }
+  std::vector<std::array<int, 2>> pairs = pairs_;
+  pairs.insert(pairs.end(), contactPairs_.begin(), contactPairs_.end());
+  cholesky_.emplace(
+      static_cast<int>(free_.size()), pairs, contact_ ? math::OrderingEffort::quick : math::OrderingEffort::thorough);
+  slots_.clear();
+  diagonals_.clear();
   for (const Term& term : terms_) {
     std::vector<Eigen::Index>& slots = slots_.emplace_back(static_cast<std::size_t>(term.energy->entryCount()), -1);
     for (int s = 0; s < term.energy->entryCount(); ++s) {
       const int row = term.energy->rows()[s], column = term.energy->columns()[s];
-      if (vertex[row / 3] >= 0 && vertex[column / 3] >= 0)
-        slots[s] = slotOf(*cholesky_, vertex[row / 3], vertex[column / 3], row % 3, column % 3);
+      if (vertex_[row / 3] >= 0 && vertex_[column / 3] >= 0)
+        slots[s] = slotOf(*cholesky_, vertex_[row / 3], vertex_[column / 3], row % 3, column % 3);
     }
   }
   for (int v = 0; v < static_cast<int>(free_.size()); ++v)
@@ -67,11 +89,37 @@ EnergyMinimizer::EnergyMinimizer(std::vector<Term> terms, std::vector<char> held
         {slotOf(*cholesky_, v, v, 0, 0), slotOf(*cholesky_, v, v, 1, 1), slotOf(*cholesky_, v, v, 2, 2)});
 }
 
+bool EnergyMinimizer::hasRoomForContacts() const {
+  return std::all_of(blocks_.begin(), blocks_.end(), [&](const mechanics::ContactBlock& block) {
+    const auto [q, p] = std::minmax(vertex_[block.row], vertex_[block.column]);
+    return q < 0 || p == q || std::binary_search(contactPairs_.begin(), contactPairs_.end(), std::array<int, 2>{p, q});
+  });
+}
+
+Eigen::Matrix3Xd EnergyMinimizer::withBodies(const Vector& x) const {
+  Eigen::Matrix3Xd all(3, x.size() / 3 + bodyPoints_.cols());
+  all << x.reshaped(3, x.size() / 3), bodyPoints_;
+  return all;
+}
+
+double EnergyMinimizer::freeFraction(const Vector& x, const Vector& step) const {
+  if (!contact_) return 1;
+  Eigen::Matrix3Xd motion = Eigen::Matrix3Xd::Zero(3, x.size() / 3 + bodyPoints_.cols());
+  motion.leftCols(x.size() / 3) = step.reshaped(3, x.size() / 3);
+  const Eigen::Matrix3Xd all = withBodies(x);
+  contact_->update(all);
+  return contact_->largestStep(all, motion);
+}
+
 double EnergyMinimizer::value(const Vector& x, const Surroundings& surroundings) const {
   double sum = -surroundings.force.dot(x);
   for (const Term& term : terms_) sum += term.weight * term.energy->value(x);
   if (surroundings.inertia.size() > 0)
     sum += 0.5 * (surroundings.inertia.array() * (x - surroundings.target).array().square()).sum();
+  if (contact_) {
+    contact_->update(withBodies(x));
+    sum += contact_->value();
+  }
   return sum;
 }
 
@@ -84,6 +132,13 @@ Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundin
     sum += own;
   }
   if (surroundings.inertia.size() > 0) sum += surroundings.inertia.cwiseProduct(x - surroundings.target);
+  if (contact_) {
+    Eigen::Matrix3Xd own = Eigen::Matrix3Xd::Zero(3, x.size() / 3 + bodyPoints_.cols());
+    contact_->update(withBodies(x));
+    contact_->addGradient(own);
+    if (largest) *largest = std::max(*largest, own.cwiseAbs().maxCoeff());
+    sum += own.leftCols(x.size() / 3).reshaped();
+  }
   for (std::size_t node = 0; node < held_.size(); ++node)
     if (held_[node]) sum.segment<3>(3 * static_cast<Eigen::Index>(node)).setZero();
   return sum;
@@ -92,6 +147,12 @@ Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundin
 bool EnergyMinimizer::factorizeAt(const Vector& x, const Surroundings& surroundings, mechanics::HessianKind kind,
                                   double shift) {
   for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t].energy->hessianEntries(x, entries_[t], kind);
+  if (contact_) {
+    blocks_.clear();
+    contact_->update(withBodies(x));
+    contact_->addHessian(blocks_, kind == HessianKind::convex ? 1 : 0);
+    if (!hasRoomForContacts()) analyse();
+  }
   return factorize(surroundings, shift);
 }
 
@@ -102,6 +163,15 @@ bool EnergyMinimizer::factorize(const Surroundings& surroundings, double shift) 
     for (Eigen::Index s = 0; s < entries_[t].size(); ++s)
       if (const Eigen::Index slot = slots_[t][static_cast<std::size_t>(s)]; slot >= 0)
         values[slot] += terms_[t].weight * entries_[t][s];
+  for (const mechanics::ContactBlock& block : blocks_) {
+    const int p = vertex_[block.row], q = vertex_[block.column];
+    if (p < 0 || q < 0) continue;
+    const math::BlockCholesky::Place place = cholesky_->place(p, q);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        values[place.offset + Eigen::Index{j} * place.stride + i] +=
+            place.transposed ? block.entry(j, i) : block.entry(i, j);
+  }
   double sum = 0;
   for (std::size_t v = 0; v < free_.size(); ++v)
     for (int i = 0; i < 3; ++i) {
@@ -139,6 +209,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
   for (int iteration = 0;; ++iteration) {
     const double residual = scale > 0 ? slope.cwiseAbs().maxCoeff() / scale : 0;
     report.iterations.push_back({iteration, residual, 0});
+    if (options.visit) options.visit(x);
     if (residual <= options.tolerance) return finish(TerminationType::converged, "");
     if (context.cancelRequested()) return finish(TerminationType::cancelled, "The equilibrium was cancelled.");
     if (iteration >= options.maximumIterations)
@@ -163,10 +234,10 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
     for (std::size_t v = 0; v < free_.size(); ++v)
       step.segment<3>(3 * Eigen::Index{free_[v]}) = right.segment<3>(3 * static_cast<Eigen::Index>(v));
     const double descent = slope.dot(step);
-    double length = 1, reached = value(x + step, surroundings);
+    double length = freeFraction(x, step), reached = value(x + length * step, surroundings);
     if (-descent < roundingOfEnergy * std::abs(energy)) {
       // The energy's decrease drowns in rounding, and the force's may not.
-      const bool lower = std::isfinite(reached) &&
+      const bool lower = std::isfinite(reached) && length == 1 &&
                          gradient(x + step, surroundings).cwiseAbs().maxCoeff() < slope.cwiseAbs().maxCoeff();
       if (!lower) {
         if (step.cwiseAbs().maxCoeff() <= options.stepTolerance * size) return finish(TerminationType::converged, "");
@@ -188,7 +259,7 @@ base::SolverReport EnergyMinimizer::minimize(Vector& x, const Surroundings& surr
       lengthened = convex && !lengthened && length == 1;
       while (lengthened && length < farthestStep) {
         const double farther = value(x + 2 * length * step, surroundings);
-        if (!(farther < reached)) break;
+        if (!(farther < reached) || freeFraction(x, 2 * length * step) < 1) break;
         reached = farther;
         length *= 2;
       }

@@ -1,11 +1,10 @@
 #include "core/solvers/parameter_uncertainty.hpp"
 
 #include <Eigen/SVD>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include "core/math/student_t.hpp"
 
 namespace pliant::solvers {
 
@@ -49,7 +48,7 @@ ParameterUncertainty parameterUncertainty(const MatrixXd& jacobian, const Vector
   result.undetermined(free, Eigen::all) = units.cwiseInverse().asDiagonal() * lost;
 
   const MatrixXd roots = determined * values.head(rank).cwiseInverse().asDiagonal();  // of the inverse, R Rᵀ
-  const double t = math::studentQuantile(0.5 + 0.5 * level, result.degreesOfFreedom);
+  const double t = boost::math::quantile(boost::math::students_t(result.degreesOfFreedom), 0.5 + 0.5 * level);
   const VectorXd lengths = roots.rowwise().norm();
   const auto isDetermined = [&](Index i) {
     return lengths[i] > 0 && (lost.cols() == 0 || lost.row(i).norm() <= share);

@@ -1,8 +1,11 @@
 #include "tests/benchmarks/bench_design.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <vector>
 
+#include "core/base/stopwatch.hpp"
+#include "core/harmonic/prediction_error.hpp"
 #include "core/scene/design_result.hpp"
 #include "core/scene/model_builder.hpp"
 
@@ -62,6 +65,43 @@ Json rowOfDesign(const Example& example) {
   return row;
 }
 
+/// What exploring a design by hand costs (2.4.4): the motion, its sensitivities, and how far they can be trusted.
+Json rowOfPredictions(const Example& example) {
+  const scene::Scene scene =
+      scene::Scene::load(std::string(PLIANT_SOURCE_DIR "/scenes/harmonic/") + example.file + ".json");
+  const Json& studies = scene.normalized()["studies"];
+  const auto design = std::find_if(studies.begin(), studies.end(), [](const Json& s) { return s["type"] == "design"; });
+  harmonic::HarmonicBalanceProblem problem(
+      scene::buildModel(scene), math::HarmonicBasis((*design)["harmonics"], (*design)["samples"]));
+  const auto count = static_cast<int>(problem.model().parameters.size());
+  base::ExecutionContext context;
+  const harmonic::PeriodicMotion motion = harmonic::solvePeriodicMotion(problem, (*design)["frequency"], {}, context);
+  base::Stopwatch watch;
+  const harmonic::ResponseSensitivity sensitivity(problem, motion);
+  const double first = watch.seconds();
+  watch = {};
+  const harmonic::PredictionError error(problem, motion, sensitivity);
+  const double preparation = watch.seconds();
+  watch = {};
+  for (int i = 0; i < count; ++i) error.estimate(mechanics::Vector::Unit(count, i));
+  const double estimate = watch.seconds() / count;
+  watch = {};
+  for (int i = 0; i < count; ++i) error.trustedRange(i, 0.05);
+  const double range = watch.seconds() / count;
+  std::printf(
+      "%-18s motion %.0f ms, sensitivity to %d parameters %.0f ms, error of predictions %.0f ms once, %.0f ms a "
+      "direction, trusted range %.0f ms a parameter\n",
+      example.name, 1e3 * motion.report.seconds, count, 1e3 * first, 1e3 * preparation, 1e3 * estimate, 1e3 * range);
+  std::fflush(stdout);
+  Json row;
+  row["area"] = "design";
+  row["name"] = std::string("prediction/") + example.name;
+  row["seconds"] = first + preparation + range * count;
+  row["size"] = problem.size();
+  row["termination"] = base::toString(motion.report.termination);
+  return row;
+}
+
 }  // namespace
 
 Json measureDesign() {
@@ -70,6 +110,7 @@ Json measureDesign() {
               "N_AF", "", "N_p", "", "N_it", "", "solves", "thesis", "ours", "ratio");
   Json rows = Json::array();
   for (const Example& example : examples) rows.push_back(rowOfDesign(example));
+  rows.push_back(rowOfPredictions(examples[0]));
   return rows;
 }
 

@@ -1,16 +1,6 @@
 #pragma once
 
-#include <QWidget>
-#include <memory>
-#include <string>
-
-#include "core/scene/study.hpp"
-#include "ui/document/document.hpp"
-
-class QComboBox;
-class QLabel;
-class QPushButton;
-class QStackedLayout;
+#include "ui/panels/study_panel.hpp"
 
 namespace pliant::plots {
 class LinePlot;
@@ -19,35 +9,21 @@ class LinePlot;
 namespace pliant::panels {
 
 /// How limits of curvature depend on the size of a patch (thesis Fig. 4.8), while they are computed as well.
-class SizePanel final : public QWidget {
+class SizePanel final : public StudyPanel {
   Q_OBJECT
 
  public:
-  /// The type of the studies that it shows.
-  static constexpr const char* shownType = "bending_size";
-
   explicit SizePanel(document::Document& document, QWidget* parent = nullptr);
 
-  std::string study() const;
-  void setStudy(const std::string& name);
   plots::LinePlot* plot() const { return plot_; }
-  /// CSV, or a picture, by the extension. Throws base::InputError.
-  void exportTo(const QString& file);
-
- Q_SIGNALS:
-  void runRequested(const std::string& study);
+  void exportTo(const QString& file) override;
 
  private:
-  void fillStudies();
-  void refresh();
-  void chooseExport();
+  QString absentNote() const override;
+  QString waitingNote(const QString& study) const override;
+  bool present(const document::StudyState* study) override;
 
-  document::Document& document_;
   std::shared_ptr<const scene::Result> result_;
-  QStackedLayout* pages_;
-  QLabel *note_, *stale_;
-  QPushButton* run_;
-  QComboBox* studies_;
   plots::LinePlot* plot_;
 };
 

@@ -1,26 +1,17 @@
 #include "ui/panels/travel_panel.hpp"
 
 #include <QCheckBox>
-#include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QLabel>
-#include <QPushButton>
-#include <QStackedLayout>
 #include <QToolButton>
-#include <algorithm>
 #include <optional>
 
-#include "core/base/error.hpp"
 #include "core/scene/polar_curves.hpp"
-#include "ui/plots/plot_export.hpp"
 #include "ui/plots/polar_plot.hpp"
 
 namespace pliant::panels {
 
 namespace {
-
-constexpr int controlHeight = 28;
 
 /// None if there is nothing to show.
 std::optional<scene::PolarCurves> curvesOf(const scene::Result* result) {
@@ -33,120 +24,44 @@ std::optional<scene::PolarCurves> curvesOf(const scene::Result* result) {
 
 }  // namespace
 
-bool TravelPanel::shows(const std::string& type) { return type == "free_travel" || type == "curvature_limits"; }
-
-TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
-  auto* empty = new QWidget;
-  auto* middle = new QVBoxLayout(empty);
-  note_ = new QLabel;
-  note_->setWordWrap(true);
-  note_->setAlignment(Qt::AlignCenter);
-  run_ = new QPushButton;
-  middle->addStretch();
-  middle->addWidget(note_);
-  middle->addWidget(run_, 0, Qt::AlignHCenter);
-  middle->addStretch();
-
-  auto* shown = new QWidget;
-  studies_ = new QComboBox;
-  studies_->setToolTip(tr("Whose limits are shown"));
-  studies_->setFixedHeight(controlHeight);
-  auto* head = new QHBoxLayout;
-  head->setContentsMargins(16, 4, 16, 4);
-  head->setSpacing(8);
-  head->addWidget(studies_);
-  switches_ = new QHBoxLayout;
-  switches_->setSpacing(12);
-  head->addLayout(switches_);
-  head->addStretch();
-  const auto button = [&](const QString& text, const QString& tooltip, auto act) {
-    auto* made = new QToolButton;
-    made->setText(text);
-    made->setToolTip(tooltip);
-    made->setFixedHeight(controlHeight);
-    connect(made, &QToolButton::clicked, this, act);
-    head->addWidget(made);
-  };
-  button(tr("Measured…"),
-         tr("Import measured values: a table with the columns angle [deg], the name of a curve, such as stretch [%] "
-            "or bent up [1/m],\nand, if known, error or lower and upper"),
-         &TravelPanel::chooseMeasured);
-  button(tr("Export…"), tr("Write the plot as PDF, SVG or PNG, or its numbers as CSV"), &TravelPanel::exportPlot);
+TravelPanel::TravelPanel(document::Document& document, QWidget* parent)
+    : StudyPanel(document, {"free_travel", "curvature_limits"}, parent) {
+  connect(addButton(tr("Measured…"), tr("Import measured values: a table with the columns angle [deg], the name of a "
+                                        "curve, such as stretch [%] or bent up [1/m],\nand, if known, error or lower "
+                                        "and upper")),
+          &QToolButton::clicked, this, &TravelPanel::chooseMeasured);
   plot_ = new plots::PolarPlot;
-  auto* column = new QVBoxLayout(shown);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(0);
-  column->addLayout(head);
-  column->addWidget(plot_, 1);
-  pages_ = new QStackedLayout(this);
-  pages_->addWidget(empty);
-  pages_->addWidget(shown);
-
-  connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(study()); });
-  connect(studies_, &QComboBox::activated, this, &TravelPanel::refresh);
-  connect(&document_, &document::Document::sceneReplaced, this, [this] {
-    plot_->clearMeasured();
-    fillStudies();
-    refresh();
-  });
-  connect(&document_, &document::Document::sceneEdited, this, [this] {
-    fillStudies();
-    refresh();
-  });
-  connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
-    if (name == study()) refresh();
-  });
-  fillStudies();
-  refresh();
+  connect(&document_, &document::Document::sceneReplaced, plot_, &plots::PolarPlot::clearMeasured);
+  setPlot(plot_);
 }
 
-std::string TravelPanel::study() const { return studies_->currentText().toStdString(); }
-
-void TravelPanel::setStudy(const std::string& name) {
-  const int index = studies_->findText(QString::fromStdString(name));
-  if (index < 0) return;
-  studies_->setCurrentIndex(index);
-  refresh();
+QString TravelPanel::absentNote() const {
+  return tr(
+      "Studies of the types free_travel and curvature_limits find how far an interlocking material stretches, "
+      "compresses or bends in each direction. This scene has none; add one in the scene's tree.");
 }
 
-void TravelPanel::fillStudies() {
-  const QString before = studies_->currentText();
-  studies_->clear();
-  for (const document::StudyState& study : document_.studies())
-    if (shows(study.type)) studies_->addItem(QString::fromStdString(study.name));
-  studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
-  studies_->setVisible(studies_->count() > 1);
+QString TravelPanel::waitingNote(const QString& study) const {
+  return tr("The study “%1” finds the limits of this material in each direction.").arg(study);
 }
 
-void TravelPanel::refresh() {
-  const document::StudyState* state = document_.study(study());
-  const auto result = state ? state->result : nullptr;
+bool TravelPanel::present(const document::StudyState* study) {
+  const auto result = study ? study->result : nullptr;
   const auto curves = curvesOf(result.get());
-  const bool busy =
-      state && (state->status == document::StudyStatus::running || state->status == document::StudyStatus::waiting);
-  run_->setVisible(state != nullptr);
-  run_->setEnabled(!busy);
-  run_->setText(tr("Run %1").arg(studies_->currentText()));
-  note_->setText(
-      !state ? tr("Studies of the types free_travel and curvature_limits find how far an interlocking "
-                  "material stretches, compresses or bends in each direction. This scene has none; add one "
-                  "in the scene's tree.")
-      : busy ? tr("The limits are on their way.")
-             : tr("The study “%1” finds the limits of this material in each direction.").arg(studies_->currentText()));
-  pages_->setCurrentIndex(curves ? 1 : 0);
   if (result != result_) {
     result_ = result;
     plot_->setCurves(curves.value_or(scene::PolarCurves()));
     refreshSwitches();
   }
-  plot_->setStale(state && state->stale);
+  plot_->setStale(study && study->stale);
+  return curves.has_value();
 }
 
 /// A box a curve, in its colour.
 void TravelPanel::refreshSwitches() {
   const auto& curves = plot_->curves().curves;
-  if (switches_->count() == static_cast<int>(curves.size())) return;
-  while (QLayoutItem* item = switches_->takeAt(0)) {
+  if (switches()->count() == static_cast<int>(curves.size())) return;
+  while (QLayoutItem* item = switches()->takeAt(0)) {
     delete item->widget();
     delete item;
   }
@@ -154,7 +69,7 @@ void TravelPanel::refreshSwitches() {
     auto* box = new QCheckBox(QString::fromStdString(curves[static_cast<std::size_t>(i)].name));
     box->setChecked(plot_->isCurveVisible(i));
     connect(box, &QCheckBox::toggled, this, [this, i](bool on) { plot_->setCurveVisible(i, on); });
-    switches_->addWidget(box);
+    switches()->addWidget(box);
   }
 }
 
@@ -167,22 +82,9 @@ void TravelPanel::importMeasured(const QString& file) {
 void TravelPanel::chooseMeasured() {
   const QString file = QFileDialog::getOpenFileName(
       this, tr("Measured values: angle [deg] and the name of a curve"), {}, tr("Comma-separated values (*.csv)"));
-  if (file.isEmpty()) return;
-  try {
-    importMeasured(file);
-  } catch (const base::InputError& error) {
-    document_.raise(base::Severity::warning, QString::fromStdString(error.what()));
-  }
+  if (!file.isEmpty()) attempt([&] { importMeasured(file); });
 }
 
-void TravelPanel::exportPlot() {
-  const QString file = QFileDialog::getSaveFileName(this, tr("Export the plot"), {}, plots::plotExportFilters());
-  if (file.isEmpty()) return;
-  try {
-    plot_->exportTo(file);
-  } catch (const base::InputError& error) {
-    document_.raise(base::Severity::warning, QString::fromStdString(error.what()));
-  }
-}
+void TravelPanel::exportTo(const QString& file) { plot_->exportTo(file); }
 
 }  // namespace pliant::panels

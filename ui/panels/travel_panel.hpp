@@ -1,16 +1,6 @@
 #pragma once
 
-#include <QWidget>
-#include <memory>
-
-#include "core/scene/interlock_result.hpp"
-#include "ui/document/document.hpp"
-
-class QComboBox;
-class QHBoxLayout;
-class QLabel;
-class QPushButton;
-class QStackedLayout;
+#include "ui/panels/study_panel.hpp"
 
 namespace pliant::plots {
 class PolarPlot;
@@ -20,38 +10,25 @@ namespace pliant::panels {
 
 /// Limits of stretch and compression and the free travel between them over the direction (thesis Fig. 4.6), or limits
 /// of curvature (Fig. 4.7), with what was measured.
-class TravelPanel final : public QWidget {
+class TravelPanel final : public StudyPanel {
   Q_OBJECT
 
  public:
   explicit TravelPanel(document::Document& document, QWidget* parent = nullptr);
 
-  /// Whether it shows results of studies of this type.
-  static bool shows(const std::string& type);
-
-  std::string study() const;
-  void setStudy(const std::string& name);
   plots::PolarPlot* plot() const { return plot_; }
   /// Throws base::InputError.
   void importMeasured(const QString& file);
-
- Q_SIGNALS:
-  void runRequested(const std::string& study);
+  void exportTo(const QString& file) override;
 
  private:
-  void fillStudies();
-  void refresh();
+  QString absentNote() const override;
+  QString waitingNote(const QString& study) const override;
+  bool present(const document::StudyState* study) override;
   void refreshSwitches();
   void chooseMeasured();
-  void exportPlot();
 
-  document::Document& document_;
   std::shared_ptr<const scene::Result> result_;
-  QStackedLayout* pages_;
-  QLabel* note_;
-  QPushButton* run_;
-  QComboBox* studies_;
-  QHBoxLayout* switches_;
   plots::PolarPlot* plot_;
 };
 

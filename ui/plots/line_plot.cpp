@@ -115,6 +115,8 @@ void LinePlot::redraw() {
     if (!line.name.isEmpty()) graph->addToLegend();
   }
   plot_->legend->setVisible(plot_->legend->itemCount() > 1);
+  plot_->axisRect()->insetLayout()->setInsetAlignment(
+      0, chart_.legendBelow ? Qt::AlignLeft | Qt::AlignBottom : Qt::AlignRight | Qt::AlignTop);
   applyStyle();
   if (instantSet_) setInstant(shownInstant_);
 }

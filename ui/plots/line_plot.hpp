@@ -24,7 +24,8 @@ struct LineChart {
   QString xLabel, yLabel;
   bool logarithmicY = false;  ///< values that are not above 0 are left out
   std::vector<PlotLine> lines;
-  bool fromZero = false;  ///< the y-axis begins at 0, and values have room on both sides of the x-axis
+  bool legendBelow = false;  ///< in the lower left corner, for lines that begin high
+  bool fromZero = false;     ///< the y-axis begins at 0, and values have room on both sides of the x-axis
 };
 
 /// Some lines that may grow, in colours that are told apart by the colour-blind; a line marks an instant. Wheel and

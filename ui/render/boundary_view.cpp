@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ui/render/axes_box.hpp"
 #include "ui/render/boundary_surface_figure.hpp"
@@ -54,7 +55,9 @@ struct BoundaryView::Parts {
   AxesBox box;
   vtkNew<vtkLookupTable> table;
   Body first, compared;
-  DotPrimitive stateDots{3.5}, restDots{9};
+  DotPrimitive stateDots{3.5}, restDots{9}, insideDots{4};
+  Points inside = Points(3, 0);
+  std::optional<int> ringed;  ///< of those inside
   LinePrimitive restLines{1.0}, planeFrame{1.2};
   SurfacePrimitive plane;
   std::array<vtkNew<vtkTextActor>, 3> ways;
@@ -73,7 +76,7 @@ struct BoundaryView::Parts {
     box.addTo(renderer);
     for (Body* body : {&first, &compared})
       for (ShadowFigure& shadow : body->shadows) shadow.addTo(renderer);
-    for (vtkActor* actor : {restLines.actor(), restDots.actor()}) renderer->AddActor(actor);
+    for (vtkActor* actor : {restLines.actor(), restDots.actor(), insideDots.actor()}) renderer->AddActor(actor);
     for (Body* body : {&first, &compared})
       body->slice.actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-2, -8);
     orderBodies();
@@ -128,6 +131,7 @@ struct BoundaryView::Parts {
     setColor(restLines.actor(), mixed(colors.background, colors.text, 0.5));
     setColor(restDots.actor(), colors.text);
     setColor(stateDots.actor(), colors.outline);
+    setColor(insideDots.actor(), colors.text);
     setColor(planeFrame.actor(), colors.text);
     setColor(plane.actor(), mixed(colors.background, colors.text, 0.6));
     setColor(first.slice.actor(), colors.text);
@@ -157,7 +161,7 @@ struct BoundaryView::Parts {
       body->slice.setPixelRatio(ratio);
       for (ShadowFigure& shadow : body->shadows) shadow.setPixelRatio(ratio);
     }
-    for (DotPrimitive* dots : {&stateDots, &restDots}) dots->setPixelRatio(ratio);
+    for (DotPrimitive* dots : {&stateDots, &restDots, &insideDots}) dots->setPixelRatio(ratio);
     for (LinePrimitive* lines : {&restLines, &planeFrame}) lines->setPixelRatio(ratio);
     for (Ring* ring : {&selectionRing, &hoverRing}) ring->setPixelRatio(ratio);
   }
@@ -323,7 +327,7 @@ struct BoundaryView::Parts {
 
   void layOut() {
     if (namesWays) stage.legend().setVisible(false);
-    selectionRing.setPlace(placeOf(selected));
+    selectionRing.setPlace(ringed ? stage.camera().pixelOf(inside.col(*ringed)) : placeOf(selected));
     hoverRing.setPlace(hovered == selected ? std::nullopt : placeOf(hovered));
     restLabel->SetVisibility(false);
     if (!hasRange(bounds)) return;
@@ -384,6 +388,15 @@ void BoundaryView::setStale(bool stale) {
 void BoundaryView::setSelected(std::optional<int> state) { parts_->selected = state; }
 void BoundaryView::setHovered(std::optional<int> state) { parts_->hovered = state; }
 std::optional<int> BoundaryView::selected() const { return parts_->selected; }
+
+void BoundaryView::setInside(const Eigen::Matrix3Xd& places, std::optional<int> ringed) {
+  parts_->inside = places;
+  parts_->ringed = ringed;
+  std::vector<int> all(static_cast<std::size_t>(places.cols()));
+  std::iota(all.begin(), all.end(), 0);
+  parts_->insideDots.setNodes(std::move(all));
+  parts_->insideDots.setPoints(places);
+}
 
 std::array<double, 2> BoundaryView::range(int axis) const {
   const Bounds& bounds = parts_->bounds;

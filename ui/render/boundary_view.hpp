@@ -39,6 +39,8 @@ class BoundaryView final : public View {
   void setSelected(std::optional<int> state);
   void setHovered(std::optional<int> state);
   std::optional<int> selected() const;
+  /// Dots in the space, such as those of the triangles of a sheet, and one of them with a ring.
+  void setInside(const Eigen::Matrix3Xd& places, std::optional<int> ringed);
 
   /// The range of a coordinate that both surfaces and the rest state take; (0, 0) of none.
   std::array<double, 2> range(int axis) const;

@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "core/base/units.hpp"
+#include "ui/render/boundary_geometry.hpp"
 #include "ui/render/bounds.hpp"
 #include "ui/render/color_key.hpp"
 #include "ui/render/color_map.hpp"
 #include "ui/render/dot_overlay.hpp"
 #include "ui/render/offscreen_target.hpp"
+#include "ui/render/ring.hpp"
 #include "ui/render/sheet_primitive.hpp"
 #include "ui/render/stage.hpp"
 
@@ -34,28 +36,35 @@ struct MacroView::Parts {
   LinePrimitive edges{0.6};
   vtkNew<vtkPoints> edgePoints;
   vtkNew<vtkLookupTable> table;
-  DotOverlay clamps, origins;
+  DotOverlay clamps, loads, origins;
+  Ring selectionRing;
   ColorKey key;
   std::shared_ptr<const scene::MacroResult> result;
   MacroField field = MacroField::nearest;
+  Picks picks = Picks::triangles;
+  std::optional<int> selected;  ///< triangle
   bool stale = false;
 
   explicit Parts(Stage& around) : stage(around) {
     stage.renderer()->AddActor(sheet.actor());
     stage.renderer()->AddActor(edges.actor());
     clamps.addTo(stage.renderer());
+    loads.addTo(stage.renderer());
     origins.addTo(stage.renderer());
+    selectionRing.addTo(stage.renderer());
     key.addTo(stage.renderer());
     stage.legend().setTable(table);
     stage.onLayOut = [this] {
       placeDots();
+      placeRing();
       key.layOut();
     };
     stage.onTheme = [this] { applyTheme(); };
     stage.onField = [this] { applyTheme(); };
     stage.onPixelRatio = [this] {
       edges.setPixelRatio(stage.pixelRatio());
-      for (DotOverlay* dots : {&clamps, &origins}) dots->setPixelRatio(stage.pixelRatio());
+      for (DotOverlay* dots : overlays()) dots->setPixelRatio(stage.pixelRatio());
+      selectionRing.setPixelRatio(stage.pixelRatio());
       key.setPixelRatio(stage.pixelRatio());
       stage.camera().setTopMargin(captionRoom * stage.pixelRatio());
     };
@@ -63,12 +72,14 @@ struct MacroView::Parts {
     stage.setTheme(Theme::light);
   }
 
+  std::array<DotOverlay*, 3> overlays() { return {&clamps, &loads, &origins}; }
+
   Points positions() const { return result->state.positions.reshaped(3, result->sheet->mesh.points.cols()); }
 
   void show() {
     const bool visible = result && result->state.positions.size() > 0;
     for (vtkActor* actor : {sheet.actor(), edges.actor()}) actor->SetVisibility(visible);
-    for (DotOverlay* dots : {&clamps, &origins}) dots->setVisible(visible);
+    for (DotOverlay* dots : overlays()) dots->setVisible(visible);
     if (!visible) return;
     const geometry::SurfaceMesh& mesh = result->sheet->mesh;
     const Points places = positions();
@@ -92,9 +103,12 @@ struct MacroView::Parts {
     setColor(sheet.actor(), stale ? faded(colors.rest) : colors.rest);
     setColor(edges.actor(), colors.background);
     clamps.setColors(colors.link, colors.background);
+    loads.setColors(colors.driven, colors.background);
     origins.setColors(colors.prediction, colors.background);
+    selectionRing.setColors(colors.text, colors.background);
     std::vector<ColorKey::Entry> entries;
     if (visible && !result->clamped.empty()) entries.push_back({"●", "clamped", colors.link});
+    if (visible && !result->loaded.empty()) entries.push_back({"●", "loads", colors.driven});
     if (visible && result->native) entries.push_back({"●", "elements", colors.prediction});
     key.setEntries(std::move(entries), colors.text);
     stage.setNotice(stale && visible ? "inputs have changed since this was computed" : "", colors.text);
@@ -124,11 +138,16 @@ struct MacroView::Parts {
   void placeDots() {
     if (!result || result->state.positions.size() == 0) return;
     const Points places = positions();
-    Points held(3, static_cast<Eigen::Index>(result->clamped.size()));
-    for (std::size_t i = 0; i < result->clamped.size(); ++i)
-      held.col(static_cast<Eigen::Index>(i)) = places.col(result->clamped[i]);
-    put(held, clamps);
+    put(places(Eigen::all, result->clamped), clamps);
+    put(places(Eigen::all, result->loaded), loads);
     put(result->native ? Points(result->native->rest.state.positions) : Points(3, 0), origins);
+  }
+
+  void placeRing() {
+    selectionRing.setPlace(std::nullopt);
+    if (!result || !selected || *selected >= static_cast<int>(result->sheet->mesh.triangles.size())) return;
+    const auto& corners = result->sheet->mesh.triangles[static_cast<std::size_t>(*selected)];
+    selectionRing.setPlace(stage.camera().pixelOf(positions()(Eigen::all, corners).rowwise().mean()));
   }
 
   void put(const Points& places, DotOverlay& dots) const {
@@ -163,7 +182,20 @@ void MacroView::setStale(bool stale) {
   parts_->applyTheme();
 }
 
-std::optional<int> MacroView::pickNode(double, double, double) const { return std::nullopt; }
+void MacroView::setPicks(Picks picks) { parts_->picks = picks; }
+
+void MacroView::setSelectedTriangle(std::optional<int> triangle) { parts_->selected = triangle; }
+
+std::optional<int> MacroView::pickNode(double x, double y, double radius) const {
+  if (!parts_->result || parts_->result->state.positions.size() == 0) return std::nullopt;
+  const Points places = parts_->positions();
+  if (parts_->picks == Picks::nodes) return stage().camera().nearestPoint(places, x, y, radius);
+  const auto beside = stage().camera().pointBeside(cameraPose().focus, x, y);
+  if (!beside) return std::nullopt;
+  const Eigen::Vector3d eye = cameraPose().position;
+  const auto hit = firstHit(places, parts_->result->sheet->mesh.triangles, eye, *beside - eye);
+  return hit ? std::optional(hit->triangle) : std::nullopt;
+}
 
 std::string macroCaption(const scene::MacroResult& result) {
   std::string text = result.provenance.study + ":  " + std::to_string(result.sheet->mesh.triangles.size()) +

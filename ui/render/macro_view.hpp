@@ -13,7 +13,7 @@ namespace pliant::render {
 enum class MacroField { nearest, stretch, bending };
 
 /// A large piece of interlocking material at rest, coloured by how near its triangles are to their limits, with its
-/// clamped nodes and, where they were computed as well, the origins of its elements.
+/// clamped and loaded nodes and, where they were computed as well, the origins of its elements.
 class MacroView final : public View {
  public:
   MacroView();
@@ -26,7 +26,12 @@ class MacroView final : public View {
   /// Greys the sheet: inputs have changed since.
   void setStale(bool stale);
 
-  /// Nothing can be picked.
+  /// What a click picks: a triangle, or a node.
+  enum class Picks { triangles, nodes };
+  void setPicks(Picks picks);
+  /// Rings a triangle; none: no ring.
+  void setSelectedTriangle(std::optional<int> triangle);
+  /// The number of a triangle, whatever the radius, or of a node.
   std::optional<int> pickNode(double x, double y, double radius) const override;
 
  private:

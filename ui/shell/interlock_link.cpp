@@ -8,6 +8,7 @@
 #include "core/interlock/holding_contacts.hpp"
 #include "ui/panels/boundary_panel.hpp"
 #include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/sheet_panel.hpp"
 #include "ui/panels/size_panel.hpp"
 #include "ui/panels/travel_panel.hpp"
 #include "ui/viewport/viewport.hpp"
@@ -79,7 +80,7 @@ bool hasInterlock(const document::Document& document) {
 
 InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quick, viewport::Viewport& viewport,
                              panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::SizePanel& sizes,
-                             panels::CellTestPanel& tests, QObject* parent)
+                             panels::SheetPanel& sheets, panels::CellTestPanel& tests, QObject* parent)
     : QObject(parent),
       document_(document),
       quick_(quick),
@@ -87,6 +88,7 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
       boundary_(boundary),
       travel_(travel),
       sizes_(sizes),
+      sheets_(sheets),
       tests_(tests),
       view_(std::make_shared<render::LimitView>()),
       patchView_(std::make_shared<render::PatchView>()),
@@ -100,6 +102,11 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
   connect(&document_, &document::Document::studyChanged, this, &InterlockLink::follow);
   connect(&boundary_, &panels::BoundaryPanel::stateExamined, this, &InterlockLink::showState);
   connect(&tests_, &panels::CellTestPanel::studyChosen, this, &InterlockLink::showTest);
+  connect(&sheets_, &panels::SheetPanel::studyChosen, this, &InterlockLink::showTest);
+  connect(&sheets_, &panels::SheetPanel::viewChanged, this, &InterlockLink::refreshSheet);
+  connect(&viewport_, &viewport::Viewport::nodePicked, this, [this](int picked) {
+    if (viewport_.guest() == macroView_) sheets_.take(picked);
+  });
 }
 
 bool InterlockLink::isShown() const {
@@ -110,13 +117,14 @@ void InterlockLink::follow(const std::string& name) {
   const document::StudyState* study = document_.study(name);
   if (!study || !study->result || study->result->kind() != "interlock") return;
   const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
-  const bool plotted = panels::TravelPanel::shows(study->type) || study->type == panels::SizePanel::shownType;
+  const bool plotted = travel_.shows(study->type) || sizes_.shows(study->type);
   if (panels::CellTestPanel::shows(study->type) && ended) {
     if (!study->stale) showTest(name);
+    if (sheets_.shows(study->type)) Q_EMIT resultGrows(study->type);
   } else if (grows_ != name && (!ended || plotted)) {
     if (panels::BoundaryPanel::shows(study->type)) boundary_.setStudy(name);
-    if (panels::TravelPanel::shows(study->type)) travel_.setStudy(name);
-    if (study->type == panels::SizePanel::shownType) sizes_.setStudy(name);
+    if (travel_.shows(study->type)) travel_.setStudy(name);
+    if (sizes_.shows(study->type)) sizes_.setStudy(name);
     Q_EMIT resultGrows(study->type);
   }
   if (!ended) grows_ = name;
@@ -140,8 +148,10 @@ void InterlockLink::showTest(const std::string& name) {
   if (const auto sheet = std::dynamic_pointer_cast<const scene::MacroResult>(study ? study->result : nullptr)) {
     study_ = name;
     tests_.setShown(name);
+    sheets_.setStudy(name);
     const bool another = macroView_->result() != sheet;
     macroView_->setResult(sheet);
+    refreshSheet();
     showGuest(macroView_, QString::fromStdString(render::macroCaption(*sheet)));
     if (!std::exchange(macroFramed_, true))
       viewport_.setAxisView(render::AxisView::isometric);
@@ -246,6 +256,14 @@ void InterlockLink::leave() {
   study_.clear();
   if (isShown()) viewport_.setGuest(nullptr);
   tests_.setShown(std::string());
+}
+
+void InterlockLink::refreshSheet() {
+  macroView_->setField(sheets_.field());
+  macroView_->setPicks(sheets_.clicks() == panels::SheetPanel::Clicks::read ? render::MacroView::Picks::triangles
+                                                                            : render::MacroView::Picks::nodes);
+  macroView_->setSelectedTriangle(sheets_.selectedTriangle());
+  if (viewport_.guest() == macroView_) viewport_.redrawGuest();
 }
 
 void InterlockLink::refreshStale() {

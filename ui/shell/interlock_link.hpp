@@ -13,6 +13,7 @@
 namespace pliant::panels {
 class BoundaryPanel;
 class CellTestPanel;
+class SheetPanel;
 class SizePanel;
 class TravelPanel;
 }  // namespace pliant::panels
@@ -33,7 +34,7 @@ class InterlockLink final : public QObject {
   /// Finds contacts in `quick`.
   InterlockLink(document::Document& document, jobs::JobRunner& quick, viewport::Viewport& viewport,
                 panels::BoundaryPanel& boundary, panels::TravelPanel& travel, panels::SizePanel& sizes,
-                panels::CellTestPanel& tests, QObject* parent = nullptr);
+                panels::SheetPanel& sheets, panels::CellTestPanel& tests, QObject* parent = nullptr);
 
   /// The configuration at the limit of a `cell_test` or `bending_test`, or at rest of a `gravity_bending` or
   /// `macro_equilibrium`; empty: the material at rest.
@@ -57,6 +58,8 @@ class InterlockLink final : public QObject {
   /// Finds a configuration and its caption in the background, then shows it.
   template <class Find>
   void showLater(Find find);
+  /// Colours, picks and marks of the sheet as its panel says.
+  void refreshSheet();
   void refreshStale();
 
   document::Document& document_;
@@ -65,6 +68,7 @@ class InterlockLink final : public QObject {
   panels::BoundaryPanel& boundary_;
   panels::TravelPanel& travel_;
   panels::SizePanel& sizes_;
+  panels::SheetPanel& sheets_;
   panels::CellTestPanel& tests_;
   std::shared_ptr<render::LimitView> view_;
   std::shared_ptr<render::PatchView> patchView_;

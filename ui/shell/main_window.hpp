@@ -33,6 +33,7 @@ class ParameterPanel;
 class PrintPanel;
 class ResponsePanel;
 class SceneTree;
+class SheetPanel;
 class SizePanel;
 class TravelPanel;
 }  // namespace pliant::panels
@@ -87,6 +88,7 @@ class MainWindow final : public QMainWindow {
   panels::TravelPanel& travel() { return *travel_; }
   panels::PrintPanel& print() { return *print_; }
   panels::SizePanel& sizes() { return *sizes_; }
+  panels::SheetPanel& sheets() { return *sheets_; }
   panels::CellTestPanel& cellTests() { return *cellTests_; }
 
   /// See frameExport; a message says what came of it.
@@ -203,6 +205,7 @@ class MainWindow final : public QMainWindow {
   panels::BoundaryPanel* boundary_ = nullptr;
   panels::TravelPanel* travel_ = nullptr;
   panels::SizePanel* sizes_ = nullptr;
+  panels::SheetPanel* sheets_ = nullptr;
   panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   MakeDialog* make_ = nullptr;

@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "ui/panels/boundary_panel.hpp"
 #include "ui/panels/cell_test_panel.hpp"
+#include "ui/panels/sheet_panel.hpp"
 #include "ui/panels/size_panel.hpp"
 #include "ui/panels/travel_panel.hpp"
 #include "ui/shell/boundary_export.hpp"
@@ -26,6 +27,7 @@ void MainWindow::makeInterlockDocks() {
   boundary_ = new panels::BoundaryPanel(document_, quickJobs_);
   travel_ = new panels::TravelPanel(document_);
   sizes_ = new panels::SizePanel(document_);
+  sheets_ = new panels::SheetPanel(document_);
   cellTests_ = new panels::CellTestPanel(document_);
   const auto add = [this](const QString& title, const char* name, QWidget* widget) {
     auto* dock = new QDockWidget(title, this);
@@ -40,10 +42,12 @@ void MainWindow::makeInterlockDocks() {
   add(tr("Directions"), "travel", travel_);
   add(tr("Patch size"), "sizes", sizes_);
   add(tr("Limits"), "cell_tests", cellTests_);
+  add(tr("Sheet"), "sheet", sheets_);
 }
 
 void MainWindow::connectInterlock() {
-  auto* link = new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *sizes_, *cellTests_, this);
+  auto* link =
+      new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *sizes_, *sheets_, *cellTests_, this);
   connect(actions_.find(QStringLiteral("cell.reset")), &QAction::triggered, link, &InterlockLink::leave);
   const auto run = [this](const std::string& study) {
     if (!study.empty()) session_.run({study});
@@ -51,12 +55,16 @@ void MainWindow::connectInterlock() {
   connect(boundary_, &panels::BoundaryPanel::runRequested, this, run);
   connect(travel_, &panels::TravelPanel::runRequested, this, run);
   connect(sizes_, &panels::SizePanel::runRequested, this, run);
+  connect(sheets_, &panels::SheetPanel::runRequested, this, run);
+  connect(sheets_, &panels::SheetPanel::studiesRequested, this,
+          [this](const std::vector<std::string>& studies) { session_.run(studies); });
   connect(cellTests_, &panels::CellTestPanel::runRequested, this, run);
   connect(link, &InterlockLink::resultGrows, this, [this](const std::string& type) {
-    interlockDocks_[panels::BoundaryPanel::shows(type)     ? 0
-                    : panels::TravelPanel::shows(type)     ? 1
-                    : type == panels::SizePanel::shownType ? 2
-                                                           : 3]
+    interlockDocks_[panels::BoundaryPanel::shows(type) ? 0
+                    : travel_->shows(type)             ? 1
+                    : sizes_->shows(type)              ? 2
+                    : sheets_->shows(type)             ? 4
+                                                       : 3]
         ->raise();
   });
   connect(boundary_, &panels::BoundaryPanel::exportRequested, this, [this] {

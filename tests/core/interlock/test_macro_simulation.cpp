@@ -69,7 +69,6 @@ class TestMacroSimulation : public QObject {
   void curvatureStaysWithinItsLimit();
   void penaltyAgreesWithTheBarrier();
   void turnedMaterialTurnsTheLimits();
-  void fallingSheetKeepsItsShape();
   void badInputIsRefused_data();
   void badInputIsRefused();
 };
@@ -217,29 +216,6 @@ void TestMacroSimulation::turnedMaterialTurnsTheLimits() {
 }
 
 /// Thrown, it falls as every body does, whatever its limits are.
-void TestMacroSimulation::fallingSheetKeepsItsShape() {
-  MacroMaterial material;
-  material.stretch = ball(0.05);
-  material.bending = ball(15);
-  const MacroSheet sheet = strip(4, material);
-  const MacroSimulation simulation(sheet, {});
-  MacroLoads loads;
-  loads.gravity = {0, 0, -9.81};
-  base::ExecutionContext context;
-  const Vector3d thrown(0.5, 0, 1);
-  Vector positions = simulation.rest(), velocities = thrown.replicate(sheet.mesh.points.cols(), 1);
-  const double timeStep = 0.01;
-  for (int i = 0; i < 10; ++i) {
-    const MacroState state = simulation.step(positions, velocities, timeStep, 1e-6, loads, context);
-    QVERIFY2(state.report.converged(), state.report.message.c_str());
-    positions = state.positions;
-  }
-  const Vector3d moved = (positions - simulation.rest()).reshaped(3, sheet.mesh.points.cols()) * simulation.masses() /
-                         simulation.masses().sum();
-  const Vector3d expected = thrown * 0.1 + Vector3d(0, 0, -9.81) * timeStep * timeStep * 55;
-  QVERIFY((moved - expected).norm() < 1e-6);
-}
-
 void TestMacroSimulation::badInputIsRefused_data() {
   QTest::addColumn<std::string>("kind");
   for (const char* name : {"not flat", "no material", "no stiffness", "rest not allowed", "no such material"})

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace pliant::cloth {
+namespace pliant::mechanics {
 
 /// A motion through given displacements and turns, linear in between, at rest before the first and after the last.
 struct Keyframe {
@@ -25,4 +25,4 @@ struct Placement {
 /// between keyframes, so that a turn about one axis has a constant rate. Keyframes ascend in time.
 Placement placementAt(const std::vector<Keyframe>& path, double time);
 
-}  // namespace pliant::cloth
+}  // namespace pliant::mechanics

@@ -1,9 +1,9 @@
-#include "core/cloth/motion_path.hpp"
+#include "core/mechanics/body_motion.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace pliant::cloth {
+namespace pliant::mechanics {
 
 namespace {
 
@@ -31,4 +31,4 @@ Placement placementAt(const std::vector<Keyframe>& path, double time) {
           rotationBy(before.rotation + fraction * (after->rotation - before.rotation))};
 }
 
-}  // namespace pliant::cloth
+}  // namespace pliant::mechanics
