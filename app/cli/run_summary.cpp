@@ -162,6 +162,37 @@ void printInterlock(const Json& summary) {
               << summary["not_star_shaped"] << " not star-shaped\n";
 }
 
+void printCalibration(const Json& summary) {
+  if (!summary.contains("parameters")) return;
+  for (const Json& parameter : summary["parameters"]) {
+    const std::string unit = parameter["unit"];
+    const auto number = [](const Json& value) { return base::formatQuantity(value.get<double>(), {}); };
+    std::cout << "  " << parameter["name"].get<std::string>() << ": " << number(parameter["value"]) << " " << unit;
+    if (parameter["lower"].is_number())
+      std::cout << ", " << 100 * summary["confidence"].get<double>() << " % interval " << number(parameter["lower"])
+                << " to " << number(parameter["upper"]);
+    else
+      std::cout << ", no interval";
+    std::cout << "\n";
+  }
+  std::cout << "  " << summary["sample_count"] << " values, off by " << length(summary["root_mean_square_before"])
+            << " before and " << length(summary["root_mean_square"]) << " after (root mean square)\n";
+}
+
+void printConstraints(const Json& summary) {
+  if (!summary.contains("constraints")) return;
+  const auto number = [](const Json& value) { return base::formatQuantity(value.get<double>(), {}); };
+  for (const Json& constraint : summary["constraints"]) {
+    std::cout << "  " << constraint["name"].get<std::string>() << ": " << number(constraint["value"]) << " (";
+    if (constraint["at_least"].is_number()) std::cout << "at least " << number(constraint["at_least"]);
+    if (constraint["at_most"].is_number())
+      std::cout << (constraint["at_least"].is_number() ? ", " : "") << "at most " << number(constraint["at_most"]);
+    std::cout << "), " << number(constraint["value_before"]) << " before\n";
+  }
+  std::cout << "  constraints broken by " << number(summary["constraint_violation"])
+            << " of a bound, optimality residual " << number(summary["optimality_residual"]) << "\n";
+}
+
 }  // namespace
 
 void printSummary(const Json& summary) {
@@ -176,6 +207,8 @@ void printSummary(const Json& summary) {
   if (kind == "comparison") printComparison(summary);
   if (kind == "cloth") printCloth(summary);
   if (kind == "interlock") printInterlock(summary);
+  if (kind == "calibration") printCalibration(summary);
+  if (kind == "design") printConstraints(summary);
 }
 
 void printExpected(const std::vector<scene::ExpectedValue>& values) {

@@ -13,6 +13,9 @@ namespace {
 
 /// Where displacements are measured from must stay where it is.
 void requireFixedRest(const Model& model, const std::vector<MeasuredMotion>& measured) {
+  if (std::none_of(measured.begin(), measured.end(),
+                   [](const MeasuredMotion& motion) { return motion.meaning == MeasuredValue::displacement; }))
+    return;
   for (const auto& parameter : model.parameters) {
     const double value = parameter->value(model), minimum = parameter->minimum(model),
                  maximum = parameter->maximum(model);

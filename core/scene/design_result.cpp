@@ -1,5 +1,6 @@
 #include "core/scene/design_result.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include "core/scene/csv.hpp"
@@ -75,6 +76,21 @@ Json pathsOf(const DesignResult& result) {
   return paths;
 }
 
+Json constraintsOf(const DesignConstraints& constraints) {
+  Json list = Json::array();
+  const auto &before = constraints.states.front(), &after = constraints.states.back();
+  const auto finite = [](double bound) { return std::isfinite(bound) ? Json(bound) : Json(); };
+  for (std::size_t i = 0; i < constraints.list.size(); ++i)
+    list.push_back({{"name", constraints.list[i].name},
+                    {"at_least", finite(constraints.list[i].lower)},
+                    {"at_most", finite(constraints.list[i].upper)},
+                    {"value_before", before[i].exactValue},
+                    {"value", after[i].exactValue},
+                    {"smooth_value", after[i].value},
+                    {"multiplier", constraints.optimality.multipliers[static_cast<Eigen::Index>(i)]}});
+  return list;
+}
+
 std::string historyTable(const DesignResult& result) {
   CsvWriter csv;
   csv.add("iteration").add("objective").add("projected gradient").add("step length").add("evaluations").add("solves");
@@ -84,12 +100,16 @@ std::string historyTable(const DesignResult& result) {
     const std::string unit = base::siUnit(p.parameter.dimension());
     csv.add(p.parameter.name() + (unit.empty() ? "" : " [" + unit + "]"));
   }
+  for (const harmonic::DesignConstraint& constraint : result.constraints.list) csv.add(constraint.name);
   csv.endRow();
   for (const DesignIterate& design : result.design.history) {
     csv.add(design.iteration).add(design.objective).add(design.projectedGradient).add(design.stepLength);
     csv.add(design.evaluations).add(design.solves);
     for (const auto& amplitude : design.amplitudes) csv.add(amplitude.pathLength);
     for (const double value : design.values) csv.add(value);
+    if (!result.constraints.list.empty())
+      for (const auto& state : result.constraints.states[static_cast<std::size_t>(design.iteration)])
+        csv.add(state.exactValue);
     csv.endRow();
   }
   return csv.text();
@@ -168,6 +188,8 @@ std::vector<std::string> DesignResult::warnings() const {
   if (stability.state == harmonic::StabilityState::unstable)
     sentences.emplace_back(
         "The last design's motion is unstable: small disturbances grow, so the real thing will move otherwise.");
+  if (constraints.optimality.violation > harmonic::constraintTolerance)
+    sentences.emplace_back("The last design breaks its constraints; no better one was found.");
   return sentences;
 }
 
@@ -185,6 +207,11 @@ Json DesignResult::summary() const {
     json["stability"] = nameOf(stability.state);
     json["probes"] = probesOf(*this);
     if (!paths.empty()) json["paths"] = pathsOf(*this);
+    if (!constraints.list.empty()) {
+      json["constraints"] = constraintsOf(constraints);
+      json["constraint_violation"] = constraints.optimality.violation;
+      json["optimality_residual"] = constraints.optimality.stationarity;
+    }
     Json list = Json::array();
     for (const DesignedParameter& p : designedParameters(*this))
       list.push_back({{"name", p.parameter.name()},
@@ -207,6 +234,9 @@ Json DesignResult::summary() const {
                    {"error", "root mean square distance from the target path over the target's from its middle"},
                    {"distance", "root mean square distance from the target path, m"},
                    {"projected_gradient", "objective per range of a parameter"},
+                   {"constraint_violation", "largest, over the bound"},
+                   {"optimality_residual", "what no multipliers balance of the objective's gradient, over its largest"},
+                   {"multiplier", "fall of the objective per unit of the bound"},
                    {"seconds", "s"}};
   addRunInformation(json, *this);
   return json;

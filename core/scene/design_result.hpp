@@ -1,10 +1,17 @@
 #pragma once
 
+#include "core/harmonic/constrained_design.hpp"
 #include "core/harmonic/floquet_stability.hpp"
-#include "core/harmonic/inverse_design.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
+
+/// What a design was to keep to.
+struct DesignConstraints {
+  std::vector<harmonic::DesignConstraint> list;                ///< empty if there was nothing
+  std::vector<std::vector<harmonic::ConstraintState>> states;  ///< of each design in the history, a constraint each
+  solvers::Optimality optimality;                              ///< of the last design
+};
 
 /// The way from a scene's design to a better one.
 class DesignResult final : public Result {
@@ -24,6 +31,9 @@ class DesignResult final : public Result {
   /// Designs, their motions, and how they were found. The history is empty if the first design has no motion, and
   /// shorter than the way while the study runs.
   harmonic::InverseDesignResult design;
+
+  /// Set when the study ends.
+  DesignConstraints constraints;
 
   harmonic::Stability stability;  ///< of the last design's motion; unknown if not asked for
   double omega = 0;

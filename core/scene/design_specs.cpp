@@ -1,5 +1,6 @@
 #include "core/scene/design_specs.hpp"
 
+#include "core/scene/design_constraint_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -76,6 +77,7 @@ std::vector<base::ParameterSpec> designKeys() {
                             positiveNumber("maximum", "", "Largest factor.", 10)}),
                     1, 1000)),
       list("objectives", "What is to be reached; several are summed up.", objectives(), 1, 1000),
+      designConstraints(),
       withDefault(integer("iterations", "", "Iterations of the optimiser.", 0, 100'000), 200),
       positiveNumber(
           "objective_tolerance", "",

@@ -7,6 +7,7 @@
 #include "core/mechanics/joint_parameter.hpp"
 #include "core/mechanics/stiffness_factor.hpp"
 #include "core/scene/csv_table.hpp"
+#include "core/scene/design_constraint_reading.hpp"
 #include "core/scene/design_result.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/input_error_location.hpp"
@@ -34,7 +35,8 @@ class DesignReader {
   std::vector<int> parameters() {
     std::vector<int> chosen;
     if (options_.contains("parameters"))
-      for (std::size_t i = 0; i < options_["parameters"].size(); ++i)         chosen.push_back(parameterNamed(model_, options_["parameters"], i, place_ + "/parameters"));
+      for (std::size_t i = 0; i < options_["parameters"].size(); ++i)
+        chosen.push_back(parameterNamed(model_, options_["parameters"], i, place_ + "/parameters"));
     if (options_.contains("stiffness_factors"))
       for (std::size_t i = 0; i < options_["stiffness_factors"].size(); ++i) addFactors(i, chosen);
     if (!options_.contains("parameters") && !options_.contains("stiffness_factors"))
@@ -183,6 +185,9 @@ class DesignStudy final : public Study {
     DesignReader reader(scene, *designed, options_);
     parameters_ = reader.parameters();
     objective_ = reader.objective(parameters_, paths_);
+    if (options_.contains("constraints"))
+      constraints_ =
+          readDesignConstraints(*designed, options_["constraints"], placeOfStudy(scene, options_) + "/constraints");
     model_ = std::move(designed);
   }
 
@@ -211,7 +216,14 @@ class DesignStudy final : public Study {
       observe(std::move(snapshot));
     };
     harmonic::HarmonicBalanceProblem problem(model_, math::HarmonicBasis(result->harmonics, result->samples));
-    result->design = harmonic::designInversely(std::move(problem), *objective_, designOptions(), context, onIterate);
+    if (constraints_.empty()) {
+      result->design = harmonic::designInversely(std::move(problem), *objective_, designOptions(), context, onIterate);
+    } else {
+      auto found = harmonic::designWithConstraints(
+          std::move(problem), *objective_, constraints_, designOptions(), context, onIterate);
+      result->design = std::move(found.design);
+      result->constraints = {constraints_, std::move(found.states), std::move(found.optimality)};
+    }
     result->termination = result->design.report.termination;
     result->message = result->design.report.message;
     if (options_["stability"] == "on" && !result->design.history.empty() && !context.cancelRequested()) {
@@ -246,6 +258,7 @@ class DesignStudy final : public Study {
   std::vector<int> parameters_;
   std::vector<harmonic::PathGoal> paths_;
   std::shared_ptr<const harmonic::DesignObjective> objective_;
+  std::vector<harmonic::DesignConstraint> constraints_;
 };
 
 }  // namespace
