@@ -6,24 +6,32 @@
 
 namespace pliant::harmonic {
 
-BorderedJacobian::BorderedJacobian(const HarmonicBalanceProblem& problem, const Vector& z, double omega)
+BorderedJacobian::BorderedJacobian(const HarmonicBalanceProblem& problem, const Vector& z, double omega,
+                                   const Vector* border, const StressSource* stresses)
     : problem_(problem) {
   const Eigen::Index n = problem.size();
-  Vector h, frequencyDerivative;
+  Vector frequencyDerivative;
   SparseMatrix jacobian;
-  problem.linearize(z, omega, h, &jacobian, &frequencyDerivative);
-  Vector scale = Vector::Constant(n + 1, problem.oscillation(z).norm());
-  scale[n] = omega;
-  if (!(scale[0] > 0)) return;
+  problem.linearize(z, omega, residual_, &jacobian, &frequencyDerivative, stresses);
+  scale_ = Vector::Constant(n + 1, problem.oscillation(z).norm());
+  scale_[n] = omega;
+  if (!(scale_[0] > 0)) return;
+  const auto dual = [&](const Vector& vector) -> Vector { return vector.cwiseQuotient(scale_.cwiseAbs2()); };
+  const auto findTangent = [&] {
+    tangent_ = solve(Vector::Unit(n + 1, n));
+    tangent_ /= length(tangent_);
+    return tangent_.allFinite();
+  };
+  if (border) {
+    regular_ = factorize(jacobian, frequencyDerivative, dual(*border)) && findTangent();
+    return;
+  }
   // Any border that the tangent is not perpendicular to gives the tangent; that one then is the best border.
   std::mt19937 random(11);
-  Vector border(n + 1);
-  for (double& entry : border) entry = static_cast<double>(random()) / 4294967296.0 - 0.5;
-  border.array() /= scale.array();
-  if (!factorize(jacobian, frequencyDerivative, border)) return;
-  tangent_ = solve(Vector::Unit(n + 1, n));
-  tangent_ /= tangent_.cwiseQuotient(scale).norm();
-  regular_ = factorize(jacobian, frequencyDerivative, tangent_.cwiseQuotient(scale.cwiseAbs2()));
+  Vector any(n + 1);
+  for (double& entry : any) entry = static_cast<double>(random()) / 4294967296.0 - 0.5;
+  regular_ = factorize(jacobian, frequencyDerivative, any.cwiseQuotient(scale_)) && findTangent() &&
+             factorize(jacobian, frequencyDerivative, dual(tangent_));
 }
 
 bool BorderedJacobian::factorize(const SparseMatrix& jacobian, const Vector& frequencyDerivative,

@@ -10,11 +10,18 @@ namespace pliant::harmonic {
 /// The tangent has length 1 in the measure (Δz / the swing, Δω / ω), in which n is dual to it: n · tangent = 1.
 class BorderedJacobian {
  public:
-  BorderedJacobian(const HarmonicBalanceProblem& problem, const Vector& z, double omega);
+  /// `border`: the tangent of a point nearby, to which n is dual instead; saves a factorisation. For `stresses` see
+  /// HarmonicBalanceProblem::linearize.
+  BorderedJacobian(const HarmonicBalanceProblem& problem, const Vector& z, double omega, const Vector* border = nullptr,
+                   const StressSource* stresses = nullptr);
 
   /// False where two curves cross or the motion does not swing: nothing else may be asked then.
   bool regular() const { return regular_; }
   const Vector& tangent() const { return tangent_; }
+  /// h there.
+  const Vector& residual() const { return residual_; }
+  /// Of a difference of points, in the measure of the tangent.
+  double length(const Vector& difference) const { return difference.cwiseQuotient(scale_).norm(); }
   /// Solves with the matrix, and with its transpose.
   Vector solve(const Vector& right) const;
   Matrix solveTransposed(const Matrix& right) const;
@@ -26,7 +33,8 @@ class BorderedJacobian {
 
   const HarmonicBalanceProblem& problem_;
   math::SparseFactorization factors_;
-  Vector tangent_;
+  Vector tangent_, residual_;
+  Vector scale_;
   bool regular_ = false;
 };
 

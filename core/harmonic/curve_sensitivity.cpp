@@ -1,6 +1,9 @@
 #include "core/harmonic/curve_sensitivity.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/harmonic/bordered_jacobian.hpp"
 #include "core/harmonic/design_gradient.hpp"
@@ -78,61 +81,127 @@ Vector stacked(const Vector& z, double omega) {
   return u;
 }
 
-/// Newton's method for a point of the curve in the plane normal to its tangent, with the factors of a point nearby.
-void correct(const HarmonicBalanceProblem& problem, const BorderedJacobian& jacobian, Vector& u) {
-  constexpr int corrections = 3;
-  for (int i = 0; i < corrections; ++i) {
-    const Vector h = problem.residual(u.head(problem.size()), u[u.size() - 1]);
-    u -= jacobian.solve(stacked(h, 0));
+/// How far a peak may be from where it is looked for, in the measure of the tangent.
+struct PeakSearch {
+  int mostMoves;
+  double farthest;
+};
+
+/// Newton's method for a peak: onto the curve, normal to its tangent, then along it, in turns.
+class PeakLocator {
+ public:
+  PeakLocator(const HarmonicBalanceProblem& problem, const PeakLagrangian& lagrangian, const ResponsePoint& start)
+      : problem_(problem), lagrangian_(lagrangian), u_(stacked(start.z, start.omega)) {}
+
+  bool run(const PeakSearch& search) {
+    constexpr double exactEnough = 1e-12;
+    double travelled = 0, previous = std::numeric_limits<double>::infinity();
+    for (int move = 0; move < search.mostMoves; ++move) {
+      if (!findCurve(search.farthest)) return false;
+      jacobian_.emplace(problem_, state(), omega(), &tangent_);
+      if (!jacobian_->regular()) return false;
+      tangent_ = jacobian_->tangent();
+      const Vector lossGradient = lagrangian_.lossGradient(u_);
+      multipliers_ = jacobian_->solveTransposed(lossGradient).col(0).head(problem_.size());
+      curvature_ = alongTangent([&](const Vector& u) { return lagrangian_.byMotion(u, multipliers_); });
+      const double slope = lossGradient.dot(tangent_);
+      const double distance = -slope / std::abs(bending());
+      const double size = std::abs(distance);
+      const bool rounded = size <= roundingLength && size > 0.5 * std::exchange(previous, size);
+      if (bending() > 0 && (size <= exactEnough || rounded)) return true;
+      // Where the amplitude is not yet concave, along it as far as one dares.
+      const double limit = 0.3 * search.farthest;
+      const double step = bending() > 0 ? std::clamp(distance, -limit, limit) : std::copysign(limit, -slope);
+      travelled += std::abs(step);
+      if (!(travelled <= search.farthest)) return false;
+      last_ = state();
+      u_ += step * tangent_;
+    }
+    return false;
   }
+
+  PeakSensitivity sensitivity(const std::vector<int>& parameters) const {
+    const Eigen::Index n = problem_.size();
+    PeakSensitivity result;
+    result.omega = omega();
+    result.z = state();
+    result.amplitude = lagrangian_.amplitude(u_);
+    result.residual = jacobian_->residual().norm() / problem_.forceScale(omega());
+    result.amplitudeDerivative = -lagrangian_.byParameters(u_, multipliers_);
+    Matrix right(n + 1, 2);
+    right << curvature_, Vector::Unit(n + 1, n);
+    const Matrix adjoint = jacobian_->solveTransposed(right);
+    const ParameterJacobian byParameters(problem_, state(), omega(), parameters);
+    const Vector change = alongTangent([&](const Vector& u) { return lagrangian_.byParameters(u, multipliers_); }) -
+                          byParameters.transposedTimes(adjoint.col(0).head(n));
+    result.omegaDerivative = -byParameters.transposedTimes(adjoint.col(1).head(n)) - tangent_[n] / bending() * change;
+    return result;
+  }
+
+ private:
+  Vector state() const { return u_.head(problem_.size()); }
+  double omega() const { return u_[problem_.size()]; }
+  double bending() const { return curvature_.dot(tangent_); }
+  Vector alongTangent(const std::function<Vector(const Vector&)>& derivative) const {
+    const auto difference = [&](double step) -> Vector {
+      return derivative(u_ + step * tangent_) - derivative(u_ - step * tangent_);
+    };
+    return (8 * difference(tangentStep) - difference(2 * tangentStep)) / (12 * tangentStep);
+  }
+
+  /// Stresses are extrapolated from the iterate before, as always in Newton's method: see "Thin shells" in README.md.
+  bool findCurve(double farthest) {
+    constexpr int mostIterations = 15;
+    constexpr double exactEnough = 1e-10;
+    double travelled = 0;
+    for (int i = 0; i < mostIterations; ++i) {
+      const StressSource stresses{last_, state(), 1, 1};
+      const BorderedJacobian jacobian(problem_, state(), omega(), tangent_.size() > 0 ? &tangent_ : nullptr,
+                                      last_.size() > 0 ? &stresses : nullptr);
+      if (!jacobian.regular()) return false;
+      tangent_ = jacobian.tangent();
+      const Vector step = jacobian.solve(stacked(jacobian.residual(), 0));
+      const double length = jacobian.length(step);
+      travelled += length;
+      if (!(travelled <= 2 * farthest)) return false;
+      last_ = state();
+      u_ -= step;
+      if (length <= exactEnough || (length <= roundingLength && length > 0.5 * previousLength_)) return true;
+      previousLength_ = length;
+    }
+    return false;
+  }
+
+  static constexpr double roundingLength = 1e-7;  ///< corrections below it that do not shrink are rounding
+
+  const HarmonicBalanceProblem& problem_;
+  const PeakLagrangian& lagrangian_;
+  Vector u_;     ///< (z, ω)
+  Vector last_;  ///< the coefficients that u_ was extrapolated from; empty at first
+  Vector tangent_;
+  double previousLength_ = std::numeric_limits<double>::infinity();
+  std::optional<BorderedJacobian> jacobian_;
+  Vector multipliers_, curvature_;
+};
+
+std::optional<PeakSensitivity> locatePeak(const HarmonicBalanceProblem& problem, const ResponsePoint& start,
+                                          const std::vector<int>& parameters, const PeakSearch& search) {
+  const PeakLagrangian lagrangian(problem, start.probe, parameters);
+  PeakLocator locator(problem, lagrangian, start);
+  if (!locator.run(search)) return std::nullopt;
+  return locator.sensitivity(parameters);
 }
 
 }  // namespace
 
 std::optional<PeakSensitivity> peakSensitivity(const HarmonicBalanceProblem& problem, const ResponsePoint& peak,
                                                const std::vector<int>& parameters) {
-  constexpr int mostMoves = 6;
-  constexpr double farthestMove = 0.05, exactEnough = 1e-9;  // in the measure of the tangent
-  const PeakLagrangian lagrangian(problem, peak.probe, parameters);
-  const Eigen::Index n = problem.size();
-  Vector u = stacked(peak.z, peak.omega);
-  for (int move = 0; move < mostMoves; ++move) {
-    const BorderedJacobian jacobian(problem, u.head(n), u[n]);
-    if (!jacobian.regular()) return std::nullopt;
-    const Vector& tangent = jacobian.tangent();
-    const Vector lossGradient = lagrangian.lossGradient(u);
-    const Vector multipliers = jacobian.solveTransposed(lossGradient).col(0).head(n);
-    const auto alongTangent = [&](const auto& derivative) -> Vector {
-      return (derivative(u + tangentStep * tangent, multipliers) - derivative(u - tangentStep * tangent, multipliers)) /
-             (2 * tangentStep);
-    };
-    const Vector curvature =
-        alongTangent([&](const Vector& at, const Vector& by) { return lagrangian.byMotion(at, by); });
-    const double bending = curvature.dot(tangent);
-    if (!(bending > 0)) return std::nullopt;
-    const double distance = -lossGradient.dot(tangent) / bending;
-    if (!(std::abs(distance) <= farthestMove)) return std::nullopt;
-    if (std::abs(distance) > exactEnough && move + 1 < mostMoves) {
-      u += distance * tangent;
-      correct(problem, jacobian, u);
-      continue;
-    }
-    PeakSensitivity result;
-    result.omega = u[n];
-    result.amplitude = lagrangian.amplitude(u);
-    result.residual = problem.residual(u.head(n), u[n]).norm() / problem.forceScale(u[n]);
-    result.amplitudeDerivative = -lagrangian.byParameters(u, multipliers);
-    Matrix right(n + 1, 2);
-    right << curvature, Vector::Unit(n + 1, n);
-    const Matrix adjoint = jacobian.solveTransposed(right);
-    const ParameterJacobian byParameters(problem, u.head(n), u[n], parameters);
-    const Vector change =
-        alongTangent([&](const Vector& at, const Vector& by) { return lagrangian.byParameters(at, by); }) -
-        byParameters.transposedTimes(adjoint.col(0).head(n));
-    result.omegaDerivative = -byParameters.transposedTimes(adjoint.col(1).head(n)) - tangent[n] / bending * change;
-    return result;
-  }
-  return std::nullopt;
+  return locatePeak(problem, peak, parameters, {6, 0.05});
+}
+
+std::optional<PeakSensitivity> followPeak(const HarmonicBalanceProblem& problem, const ResponsePoint& peak,
+                                          const std::vector<int>& parameters) {
+  return locatePeak(problem, peak, parameters, {20, 0.5});
 }
 
 PointSensitivity pointSensitivity(const HarmonicBalanceProblem& problem, const ResponsePoint& point,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/harmonic/path_length.hpp"
+#include "core/harmonic/resonance_objective.hpp"
 
 namespace pliant::harmonic {
 
@@ -94,6 +95,11 @@ std::shared_ptr<const DesignObjective> pathExample(const HarmonicBalanceProblem&
   return makePathObjective(std::move(goal));
 }
 
+std::vector<ObjectiveKind> withResonances(std::vector<ObjectiveKind> kinds) {
+  for (ObjectiveKind& kind : resonanceObjectiveKinds()) kinds.push_back(std::move(kind));
+  return kinds;
+}
+
 }  // namespace
 
 std::shared_ptr<const DesignObjective> makeAmplitudeObjective(AmplitudeGoal goal) {
@@ -133,7 +139,8 @@ const std::vector<ObjectiveKind>& objectiveKinds() {
                                  {2, pathExample(problem, random, true)},
                                  {0.5, makeParameterRegularization({0}, Vector::Constant(1, 2))}});
        }}};
-  return kinds;
+  static const std::vector<ObjectiveKind> all = withResonances(kinds);
+  return all;
 }
 
 }  // namespace pliant::harmonic

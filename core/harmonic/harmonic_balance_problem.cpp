@@ -7,6 +7,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/harmonic_jacobian.hpp"
+#include "core/harmonic/steady_drive.hpp"
 
 namespace pliant::harmonic {
 
@@ -130,13 +131,8 @@ struct HarmonicBalanceProblem::Structure {
     steadyConfiguration = model->restPositions;
     for (const auto& drive : model->drives) {
       const std::vector<int>& driven = drive->coordinates();
-      Matrix positions(basis.samples(), static_cast<Eigen::Index>(driven.size()));
-      for (int i = 0; i < basis.samples(); ++i)
-        positions.row(i) = drive->values(model->restPositions(driven), driveAngle(i)).transpose();
-      const Eigen::RowVectorXd mean = positions.colwise().mean();
-      Eigen::Index nearest = 0;
-      (positions.rowwise() - mean).rowwise().squaredNorm().minCoeff(&nearest);
-      steadySignals.push_back(drive->signal()(driveAngle(static_cast<int>(nearest))));
+      const int nearest = steadySample(*drive, model->restPositions(driven), basis.samples(), drivePeriods);
+      steadySignals.push_back(drive->signal()(driveAngle(nearest)));
       drivenCoordinates.insert(drivenCoordinates.end(), driven.begin(), driven.end());
       steadyConfiguration(driven) = drive->place(model->restPositions(driven), steadySignals.back());
     }

@@ -1,5 +1,7 @@
 #include "core/harmonic/inverse_design.hpp"
 
+#include <cmath>
+
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/design_branch.hpp"
 #include "core/harmonic/design_gradient.hpp"
@@ -25,7 +27,7 @@ class ObjectiveOnBranch final : public solvers::BoundedObjective {
     }
     const DesignGradient at =
         designGradient(*last_.problem, last_.motion, objective_, options_.parameters, *last_.byParameters);
-    if (!at.regular) return std::nullopt;
+    if (!at.regular || !std::isfinite(at.value)) return std::nullopt;
     gradient = at.gradient.cwiseProduct(branch_.ranges());
     return at.value;
   }

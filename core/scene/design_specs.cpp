@@ -1,6 +1,7 @@
 #include "core/scene/design_specs.hpp"
 
 #include "core/scene/design_constraint_specs.hpp"
+#include "core/scene/resonance_goals.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -33,7 +34,7 @@ ParameterSpec objectives() {
                             vector("", "A place.", dimensions::length), 3, longestDesignList)),
               file});
   path.exactlyOne = {"points", "file"};
-  return variant(
+  ParameterSpec all = variant(
       "objective", "What is to be reached.",
       {object("amplitude",
               "The length of the paths of some nodes over a period, Σ (A - target)² (thesis 2.4.8), or -Σ A.",
@@ -55,6 +56,8 @@ ParameterSpec objectives() {
        object("regularization",
               "Σ ((p - p₀) / (maximum - minimum))² over the parameters that may change, p₀ being the scene's values.",
               {weight})});
+  for (ParameterSpec& goal : resonanceGoalSpecs(weight)) all.items.push_back(std::move(goal));
+  return all;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/resonance_goals.hpp"
 #include "core/scene/run_information.hpp"
 #include "core/scene/study_input.hpp"
 
@@ -114,6 +115,7 @@ class DesignReader {
                                                                std::vector<harmonic::PathGoal>& paths) const {
     if (entry["type"] == "amplitude") return amplitudeObjective(entry, place);
     if (entry["type"] == "path") return harmonic::makePathObjective(paths.emplace_back(pathGoal(entry, place)));
+    if (auto goal = resonanceGoal(entry, place, model_, options_)) return goal;
     mechanics::Vector reference(static_cast<Eigen::Index>(parameters.size()));
     for (std::size_t i = 0; i < parameters.size(); ++i)
       reference[static_cast<Eigen::Index>(i)] =

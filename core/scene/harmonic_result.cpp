@@ -5,7 +5,7 @@
 #include "core/harmonic/constraint_violation.hpp"
 #include "core/scene/harmonic_names.hpp"
 #include "core/scene/run_information.hpp"
-#include "core/scene/study.hpp"
+#include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
 
@@ -107,6 +107,7 @@ void addCurve(const HarmonicResult& result, Json& json) {
     json["last_frequency"] = result.points.back().omega;
   }
   json["peak_count"] = peaks.size();
+  if (result.peakSensitivities) addPeakSensitivities(result, peaks);
   json["peaks"] = peaks;
   json["fold_count"] = folds.size();
   json["folds"] = folds;
@@ -190,6 +191,7 @@ Json HarmonicResult::summary() const {
                    {"largest_strain",
                     "largest principal stretch of any triangle (in its plane) or tetrahedron over a period, minus 1"},
                    {"path_length_derivative", "m per unit of the parameter"},
+                   {"frequency_derivative", "rad/s per unit of the parameter"},
                    {"residual", "relative to the driving force"},
                    {"correction", "relative to the swing"},
                    {"left_out", "relative to the longest path"},

@@ -10,7 +10,7 @@
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/result_folder.hpp"
-#include "core/scene/study.hpp"
+#include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
 
@@ -135,27 +135,6 @@ std::string constraintTable(const HarmonicResult& result) {
   return csv.text();
 }
 
-std::string sensitivityTable(const HarmonicResult& result) {
-  const Model& model = result.problem->model();
-  CsvWriter csv;
-  csv.add("parameter").add("pointer").add("unit").add("value");
-  for (const auto& probe : model.probes) csv.add(probe.name + " path length derivative [m/unit]");
-  csv.endRow();
-  mechanics::Matrix derivatives(model.probes.size(), model.parameters.size());
-  for (std::size_t i = 0; i < model.probes.size(); ++i)
-    derivatives.row(static_cast<Eigen::Index>(i)) =
-        harmonic::pathLengthGradient(*result.problem, result.points.front().z, model.probes[i].node).transpose() *
-        result.sensitivity->derivative();
-  for (std::size_t p = 0; p < model.parameters.size(); ++p) {
-    const auto& parameter = *model.parameters[p];
-    csv.add(parameter.name()).add(parameter.pointer()).add(base::siUnit(parameter.dimension()));
-    csv.add(parameter.value(model));
-    for (Eigen::Index i = 0; i < derivatives.rows(); ++i) csv.add(derivatives(i, static_cast<Eigen::Index>(p)));
-    csv.endRow();
-  }
-  return csv.text();
-}
-
 [[noreturn]] void otherScene() {
   throw InputError("", "This result belongs to a scene with other nodes, probes, drives or locked coordinates.");
 }
@@ -255,6 +234,7 @@ void HarmonicResult::write(const std::filesystem::path& directory) const {
   if (const std::string violations = constraintTable(*this); !violations.empty())
     folder.writeFile("constraint_violation.csv", violations);
   if (sensitivity && sensitivity->regular()) folder.writeFile("sensitivity.csv", sensitivityTable(*this));
+  if (peakSensitivities) folder.writeFile("peak_sensitivity.csv", peakSensitivityTable(*this));
   if (const geometry::SurfaceMesh mesh = surfaceAt(problem->model(), problem->model().restPositions);
       !mesh.triangles.empty())
     geometry::writeMesh(mesh, folder.path("mesh.ply"));
@@ -285,6 +265,8 @@ std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const s
   });
   locate(directory.string(), [&] {
     readPoints(*result, readTextFile(directory / "response.csv"), readTextFile(directory / "coefficients.csv"));
+    if (const auto table = directory / "peak_sensitivity.csv"; std::filesystem::exists(table))
+      result->peakSensitivities = readPeakSensitivities(*result, readTextFile(table));
   });
   if (!result->isCurve && result->termination == base::TerminationType::converged && !result->points.empty()) {
     harmonic::PeriodicMotion motion;

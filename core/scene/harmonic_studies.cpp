@@ -8,6 +8,7 @@
 #include "core/harmonic/node_harmonics.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
 
@@ -145,7 +146,9 @@ class CurveStudy : public HarmonicStudy {
       snapshot->seconds = watch.seconds();
       observe(std::move(snapshot));
     };
-    finish(*result, trace(problem, context, onPoint), watch);
+    base::SolverReport report = trace(problem, context, onPoint);
+    complete(*result, context);
+    finish(*result, std::move(report), watch);
     if (observe) observe(result);
     return result;
   }
@@ -155,6 +158,8 @@ class CurveStudy : public HarmonicStudy {
   virtual harmonic::HarmonicBalanceProblem curveProblem() const = 0;
   virtual base::SolverReport trace(harmonic::HarmonicBalanceProblem& problem, base::ExecutionContext& context,
                                    const PointCallback& onPoint) const = 0;
+  /// What is to be found out of the whole curve.
+  virtual void complete(HarmonicResult&, base::ExecutionContext&) const {}
 };
 
 class FrequencyResponseStudy final : public CurveStudy {
@@ -166,6 +171,9 @@ class FrequencyResponseStudy final : public CurveStudy {
   base::SolverReport trace(harmonic::HarmonicBalanceProblem& problem, base::ExecutionContext& context,
                            const PointCallback& onPoint) const override {
     return harmonic::traceFrequencyResponse(problem, responseOptions(), context, onPoint).report;
+  }
+  void complete(HarmonicResult& result, base::ExecutionContext& context) const override {
+    if (options_["peak_sensitivity"]) result.peakSensitivities = computePeakSensitivities(result, context);
   }
 
  private:

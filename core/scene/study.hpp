@@ -76,6 +76,8 @@ class ResponsePoints {
   std::vector<std::shared_ptr<const harmonic::ResponsePoint>> points_;
 };
 
+struct PeakSensitivities;
+
 /// Periodic motions of one model: a single one, or the points of a response curve.
 class HarmonicResult final : public Result {
  public:
@@ -83,7 +85,8 @@ class HarmonicResult final : public Result {
   Json summary() const override;
   /// summary.json, response.csv (a row a point), coefficients.csv (every point's Fourier coefficients, exactly; zeros
   /// where another point has more of them), trajectories.csv (of the probes), mesh.ply (the rest shape, if there are
-  /// triangles), sensitivity.csv, constraint_violation.csv (over a period, if there are rigid links).
+  /// triangles), sensitivity.csv, peak_sensitivity.csv, constraint_violation.csv (over a period, if there are rigid
+  /// links).
   void write(const std::filesystem::path& directory) const override;
   /// Of rods that turn farther than mechanics::largestTrustedTurn.
   std::vector<std::string> warnings() const override;
@@ -102,6 +105,7 @@ class HarmonicResult final : public Result {
   ResponsePoints points;
   base::SolverReport report;
   std::shared_ptr<const harmonic::ResponseSensitivity> sensitivity;  ///< periodic_motion: at points[0]; else null
+  std::shared_ptr<const PeakSensitivities> peakSensitivities;        ///< frequency_response, if asked for; else null
   /// Of a motion with harmonics per node: see NodeHarmonicsMotion.
   std::optional<double> leftOut;
   bool isCurve = false;     ///< true for a frequency_response, a linear_response or a backbone

@@ -124,6 +124,10 @@ const std::vector<ParameterSpec>& studySpecs() {
                  step("maximum_step", "Largest step; chosen if left out."),
                  withDefault(integer("maximum_points", "", "Most points on the curve.", 2, 100'000), 2000),
                  locationTolerance("Relative error of the frequency of folds, peaks and bifurcations."),
+                 withDefault(boolean("peak_sensitivity",
+                                     "Find how frequency and path length of each peak change with every design "
+                                     "parameter."),
+                             false),
                  withDefault(
                      integer("branches", "",
                              "Follow the curves that branch off at branch points and period doublings: 1 those that "
