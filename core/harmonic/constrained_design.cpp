@@ -12,6 +12,13 @@ namespace {
 
 using solvers::ConstrainedValue;
 
+/// A design that was evaluated. Problems and factors are too large to keep for all of them.
+struct MetDesign {
+  Vector variables;
+  std::shared_ptr<const Model> model;
+  Vector z;
+};
+
 /// Objective and constraints over the variables, by following the branch of motions, each in a unit of its own.
 class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
  public:
@@ -64,9 +71,8 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
     return result;
   }
 
-  /// A design that was evaluated, without its factors.
-  const DesignPoint& pointAt(const Vector& variables) const {
-    return *std::find_if(met_.rbegin(), met_.rend(), [&](const DesignPoint& p) { return p.variables == variables; });
+  const MetDesign& designAt(const Vector& variables) const {
+    return *std::find_if(met_.rbegin(), met_.rend(), [&](const MetDesign& met) { return met.variables == variables; });
   }
   double objectiveScale() const { return objectiveScale_; }
   int failures() const { return failures_; }
@@ -78,9 +84,7 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
   }
   void remember() {
     if (!met_.empty() && met_.back().variables == last_.variables) return;
-    met_.push_back(last_);
-    met_.back().motion.factorization.reset();
-    met_.back().byParameters.reset();
+    met_.push_back({last_.variables, last_.problem->sharedModel(), last_.motion.z});
   }
 
   DesignBranch& branch_;
@@ -89,7 +93,7 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
   const InverseDesignOptions& options_;
   DesignPoint base_;  ///< differentiated last
   DesignPoint last_;  ///< reached last
-  std::vector<DesignPoint> met_;
+  std::vector<MetDesign> met_;
   double objectiveScale_ = 1;  ///< by which the first gradient's largest component becomes 1
   int failures_ = 0;
 };
@@ -108,10 +112,12 @@ solvers::ConstrainedBounds boundsOf(const std::vector<DesignConstraint>& constra
 /// Writes down designs on the way.
 class DesignRecorder {
  public:
-  DesignRecorder(const std::vector<DesignConstraint>& constraints, const DesignBranch& branch,
-                 const ConstrainedOnBranch& onBranch, const solvers::ConstrainedBounds& bounds,
-                 const std::function<void(const DesignIterate&)>& onIterate, ConstrainedDesignResult& result)
-      : constraints_(constraints),
+  DesignRecorder(const HarmonicBalanceProblem& first, const std::vector<DesignConstraint>& constraints,
+                 const DesignBranch& branch, const ConstrainedOnBranch& onBranch,
+                 const solvers::ConstrainedBounds& bounds, const std::function<void(const DesignIterate&)>& onIterate,
+                 ConstrainedDesignResult& result)
+      : first_(first),
+        constraints_(constraints),
         branch_(branch),
         onBranch_(onBranch),
         bounds_(bounds),
@@ -119,14 +125,16 @@ class DesignRecorder {
         result_(result) {}
 
   void add(const Vector& variables, const ConstrainedValue& value, double stepLength, int evaluations) {
-    const DesignPoint& point = onBranch_.pointAt(variables);
+    const MetDesign& met = onBranch_.designAt(variables);
+    const HarmonicBalanceProblem problem(
+        met.model, first_.basis(), first_.drivePeriods(), first_.coordinateHarmonics());
     DesignIterate design;
     design.iteration = static_cast<int>(result_.design.history.size());
-    design.model = point.problem->sharedModel();
+    design.model = met.model;
     design.values = branch_.valuesOf(variables);
-    design.z = point.motion.z;
+    design.z = met.z;
     for (const mechanics::Probe& probe : design.model->probes)
-      design.amplitudes.push_back(amplitude(*point.problem, design.z, probe.node));
+      design.amplitudes.push_back(amplitude(problem, design.z, probe.node));
     design.objective = value.objective / onBranch_.objectiveScale();
     if (value.gradient.size() > 0)
       design.projectedGradient = solvers::optimalityOf(value, variables, bounds_).stationarity *
@@ -137,7 +145,7 @@ class DesignRecorder {
     std::vector<ConstraintState> states;
     for (std::size_t i = 0; i < constraints_.size(); ++i)
       states.push_back({value.constraints[static_cast<Eigen::Index>(i)] * constraints_[i].scale,
-                        constraints_[i].quantity->exactValue(*point.problem, design.z)});
+                        constraints_[i].quantity->exactValue(problem, design.z)});
     result_.states.push_back(std::move(states));
     result_.design.evaluations = evaluations;
     result_.design.history.push_back(design);
@@ -145,6 +153,7 @@ class DesignRecorder {
   }
 
  private:
+  const HarmonicBalanceProblem& first_;
   const std::vector<DesignConstraint>& constraints_;
   const DesignBranch& branch_;
   const ConstrainedOnBranch& onBranch_;
@@ -172,7 +181,7 @@ ConstrainedDesignResult designWithConstraints(HarmonicBalanceProblem problem, co
   const Vector start = first.variables;
   ConstrainedOnBranch onBranch(branch, objective, constraints, options, std::move(first));
   const solvers::ConstrainedBounds bounds = boundsOf(constraints, start.size());
-  DesignRecorder recorder(constraints, branch, onBranch, bounds, onIterate, result);
+  DesignRecorder recorder(problem, constraints, branch, onBranch, bounds, onIterate, result);
   const auto before = onBranch.evaluate(start, true);
   if (!before) {
     report.message = "The first design stands at a fold, where its motion has no derivative.";

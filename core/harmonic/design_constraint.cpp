@@ -9,7 +9,7 @@ namespace pliant::harmonic {
 
 namespace {
 
-constexpr int fewestInstants = 512;
+constexpr int fewestClearanceInstants = 512;
 constexpr int instantsPerExact = 4;  // times as many for exact values
 
 ObjectiveValue zeroValue(const HarmonicBalanceProblem& problem) {
@@ -101,7 +101,7 @@ class Clearance final : public ConstraintQuantity {
  private:
   static math::HarmonicBasis instantsOf(const HarmonicBalanceProblem& problem, int times) {
     const math::HarmonicBasis& basis = problem.basis();
-    return {basis.harmonics(), times * std::max(fewestInstants, basis.samples())};
+    return {basis.harmonics(), times * std::max(fewestClearanceInstants, basis.samples())};
   }
 
   /// Instants x nodes; their gradients by each node's position: instants x dimension.
