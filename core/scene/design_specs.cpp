@@ -12,6 +12,7 @@ namespace dimensions = base::dimensions;
 namespace {
 
 constexpr int longestDesignList = 1'000'000;
+constexpr int mostSplinePoints = 200;
 
 ParameterSpec positiveNumber(std::string key, std::string symbol, std::string description, double value) {
   return withDefault(
@@ -32,8 +33,12 @@ ParameterSpec objectives() {
                             "Places that it passes at even steps of time, in order; the first follows the "
                             "last.",
                             vector("", "A place.", dimensions::length), 3, longestDesignList)),
+              optional(list("spline",
+                            "Places that a closed cubic spline passes at even steps of time, in order: few points, as "
+                            "drawn by hand.",
+                            vector("", "A place.", dimensions::length), 3, mostSplinePoints)),
               file});
-  path.exactlyOne = {"points", "file"};
+  path.exactlyOne = {"points", "spline", "file"};
   ParameterSpec all = variant(
       "objective", "What is to be reached.",
       {object("amplitude",

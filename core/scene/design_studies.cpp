@@ -6,7 +6,6 @@
 #include "core/base/stopwatch.hpp"
 #include "core/mechanics/joint_parameter.hpp"
 #include "core/mechanics/stiffness_factor.hpp"
-#include "core/scene/csv_table.hpp"
 #include "core/scene/design_constraint_reading.hpp"
 #include "core/scene/design_result.hpp"
 #include "core/scene/harmonic_studies.hpp"
@@ -15,6 +14,7 @@
 #include "core/scene/resonance_goals.hpp"
 #include "core/scene/run_information.hpp"
 #include "core/scene/study_input.hpp"
+#include "core/scene/target_path.hpp"
 
 namespace pliant::scene {
 
@@ -145,31 +145,13 @@ class DesignReader {
     goal.phases = entry["phases"];
     double swing = 0;
     for (const Json& path : entry["paths"]) {
-      const Matrix points = path.contains("file") ? pointsOfFile(path["file"]) : pointsOf(path["points"]);
+      const Matrix points = targetPlaces(scene_, path, model_.dimension);
       goal.paths.push_back({nodeOf(path["probe"]), harmonic::pathCoefficients(points, options_["harmonics"])});
-      swing += (points.colwise() - points.rowwise().mean()).squaredNorm();
+      const mechanics::Vector middle = points.rowwise().mean();
+      swing += (points.colwise() - middle).squaredNorm();
     }
     if (!(swing > 0)) throw InputError(place + "/paths", "Paths must not be single points.");
     return goal;
-  }
-
-  Matrix pointsOf(const Json& list) const {
-    Matrix points(model_.dimension, static_cast<Eigen::Index>(list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i)
-      for (int axis = 0; axis < model_.dimension; ++axis)
-        points(axis, static_cast<Eigen::Index>(i)) = list[i][static_cast<std::size_t>(axis)];
-    return points;
-  }
-
-  Matrix pointsOfFile(const Json& path) const {
-    const std::filesystem::path file = scene_.directory() / path.get<std::string>();
-    const CsvTable table(file);
-    if (table.size() < 3) throw InputError(file.string(), "A path needs at least 3 points.");
-    Matrix points(model_.dimension, static_cast<Eigen::Index>(table.size()));
-    for (std::size_t i = 0; i < table.size(); ++i)
-      for (int axis = 0; axis < model_.dimension; ++axis)
-        points(axis, static_cast<Eigen::Index>(i)) = table.number(i, std::string(1, "xyz"[axis]) + " [m]");
-    return points;
   }
 
   const Scene& scene_;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/harmonic/amplitude.hpp"
-#include "core/mechanics/design_parameter.hpp"
+#include "core/mechanics/joint_parameter.hpp"
 #include "ui/jobs/node_correspondence.hpp"
 
 namespace pliant::jobs {
@@ -39,6 +39,18 @@ bool sameBut(const scene::Scene& a, const scene::Scene& b, const std::vector<std
       changed[bound] = b.normalized().at(bound);
   }
   return document::sameModel(changed, b.normalized());
+}
+
+/// Whether the nodes of a motion are those of the document's model: at the same places, or at others that parameters
+/// alone have moved.
+bool fits(const ShownMotion& shown, const document::Document& document) {
+  const mechanics::Model &solved = shown.problem->model(), &present = *document.model();
+  if (sameNodes(solved, present)) return true;
+  if (solved.dimension != present.dimension || solved.restPositions.size() != present.restPositions.size())
+    return false;
+  std::vector<std::string> pointers;
+  for (const auto& parameter : solved.parameters) pointers.push_back(parameter->pointer());
+  return sameBut(shown.scene, document.scene(), pointers);
 }
 
 }  // namespace
@@ -76,7 +88,7 @@ void MotionSession::reset() {
   aside_.reset();
   stale_ = false;
   comparable_ = false;
-  preview_.reset();
+  preview_.clear();
   prediction_.reset();
   effects_.clear();
   followed_.reset();
@@ -159,7 +171,7 @@ void MotionSession::showPoint(const std::string& name, int point) {
 void MotionSession::show(ShownMotion shown) {
   shown_ = std::move(shown);
   aside_.reset();
-  if (!sameNodes(shown_->problem->model(), *document_.model())) {
+  if (!fits(*shown_, document_)) {
     putAsideIfUnfit();
     document_.raise(base::Severity::information,
                     tr("This motion belongs to another mesh than the scene has by now: run its study again."));
@@ -178,7 +190,7 @@ void MotionSession::show(ShownMotion shown) {
 }
 
 void MotionSession::putAsideIfUnfit() {
-  if (!shown_ || sameNodes(shown_->problem->model(), *document_.model())) return;
+  if (!shown_ || fits(*shown_, document_)) return;
   aside_ = std::move(shown_);
   shown_.reset();
   prediction_.reset();
@@ -188,8 +200,7 @@ void MotionSession::putAsideIfUnfit() {
 }
 
 void MotionSession::takeBackIfFit() {
-  if (!shown_ && aside_ && sameNodes(aside_->problem->model(), *document_.model()))
-    show(*std::exchange(aside_, std::nullopt));
+  if (!shown_ && aside_ && fits(*aside_, document_)) show(*std::exchange(aside_, std::nullopt));
 }
 
 void MotionSession::refreshNode() {
@@ -302,8 +313,8 @@ std::optional<Vector> MotionSession::parameterChange() const {
     const std::string pointer = parameters[p]->pointer();
     const double solved = parameters[p]->value(shown_->problem->model());
     double value = solved;
-    if (preview_ && preview_->first == pointer) {
-      value = preview_->second;
+    if (const auto previewed = preview_.find(pointer); previewed != preview_.end()) {
+      value = previewed->second;
     } else if (const auto json = document_.valueAt(pointer); json.is_number()) {
       value = json.get<double>();
     }
@@ -342,11 +353,16 @@ void MotionSession::refreshEffects() {
 
 std::shared_ptr<const mechanics::Model> MotionSession::previewedModel() const {
   const auto model = document_.model();
-  if (!preview_) return model;
+  std::vector<std::shared_ptr<const mechanics::DesignParameter>> moved;
+  std::vector<double> values;
   for (const auto& parameter : model->parameters)
-    if (parameter->pointer() == preview_->first)
-      return std::make_shared<mechanics::Model>(parameter->withValue(*model, preview_->second));
-  return model;
+    if (const auto previewed = preview_.find(parameter->pointer()); previewed != preview_.end()) {
+      moved.push_back(parameter);
+      values.push_back(previewed->second);
+    }
+  if (moved.empty()) return model;
+  return std::make_shared<mechanics::Model>(mechanics::withParameterValues(
+      *model, moved, Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()))));
 }
 
 QString MotionSession::predictionObstacle() const {
@@ -368,14 +384,14 @@ std::optional<double> MotionSession::predictedAmplitude() const {
   return amplitudeOf(*shown_->problem, *prediction_, node_, measure_);
 }
 
-void MotionSession::preview(const std::string& pointer, double value) {
-  preview_ = {pointer, value};
+void MotionSession::previewAll(std::map<std::string, double> values) {
+  preview_ = std::move(values);
   refreshPrediction();
 }
 
 void MotionSession::endPreview() {
-  if (!preview_) return;
-  preview_.reset();
+  if (preview_.empty()) return;
+  preview_.clear();
   refreshPrediction();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,8 +86,11 @@ class MotionSession final : public QObject {
   void solveAt(double omega, const std::string& study, int nearestPoint);
 
   /// A parameter is being dragged: predicts with `value` in the place of the scene's.
-  void preview(const std::string& pointer, double value);
+  void preview(const std::string& pointer, double value) { previewAll({{pointer, value}}); }
+  /// The same for several at once.
+  void previewAll(std::map<std::string, double> values);
   void endPreview();
+  bool isPreviewing() const { return !preview_.empty(); }
 
   void selectNode(int node);
   void setMeasure(AmplitudeMeasure measure);
@@ -124,7 +128,7 @@ class MotionSession final : public QObject {
   bool stale_ = false;
   bool comparable_ = false;  ///< the scenes differ in parameters alone
   std::optional<harmonic::Vector> prediction_;
-  std::optional<std::pair<std::string, double>> preview_;
+  std::map<std::string, double> preview_;  ///< by pointer
   std::vector<ParameterEffect> effects_;
   int node_ = 0;
   AmplitudeMeasure measure_ = AmplitudeMeasure::pathLength;

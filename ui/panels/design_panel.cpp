@@ -1,11 +1,10 @@
 #include "ui/panels/design_panel.hpp"
 
-#include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QSpinBox>
 #include <QStackedLayout>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -15,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/mechanics/design_parameter.hpp"
 #include "core/scene/designed_scene.hpp"
+#include "ui/panels/target_bar.hpp"
 #include "ui/panels/value_text.hpp"
 #include "ui/plots/line_plot.hpp"
 #include "ui/plots/plot_style.hpp"
@@ -22,8 +22,6 @@
 namespace pliant::panels {
 
 namespace {
-
-enum Column { nameColumn, beforeColumn, shownColumn, rangeColumn, columnCount };
 
 QString quantity(double value, const base::Dimension& dimension) {
   return QString::fromStdString(rounded(value, dimension).text);
@@ -49,67 +47,33 @@ QString gainText(const scene::DesignResult& result, const harmonic::DesignIterat
 }  // namespace
 
 DesignPanel::DesignPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
-  pages_ = new QStackedLayout(this);
-  auto* empty = new QWidget;
-  auto* emptyColumn = new QVBoxLayout(empty);
-  note_ = new QLabel;
-  note_->setAlignment(Qt::AlignCenter);
-  note_->setWordWrap(true);
-  run_ = new QPushButton(tr("Design"));
-  emptyColumn->addStretch();
-  emptyColumn->addWidget(note_);
-  emptyColumn->addWidget(run_, 0, Qt::AlignHCenter);
-  emptyColumn->addStretch();
-  pages_->addWidget(empty);
-
-  auto* page = new QWidget;
-  auto* column = new QVBoxLayout(page);
-  column->setContentsMargins(6, 6, 6, 6);
-  summary_ = new QLabel;
-  summary_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  summary_->setWordWrap(true);
-  column->addWidget(summary_);
-  auto* middle = new QHBoxLayout;
-  plot_ = new plots::LinePlot;
-  table_ = new QTableWidget(0, columnCount);
-  table_->setAccessibleName(tr("Parameters of the design"));
-  table_->setHorizontalHeaderLabels({tr("parameter"), tr("before"), tr("this design"), tr("of its range")});
-  table_->horizontalHeaderItem(rangeColumn)->setToolTip(tr("0 %: at its lower bound, 100 %: at its upper bound"));
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(nameColumn, QHeaderView::Stretch);
-  table_->verticalHeader()->hide();
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setSelectionMode(QAbstractItemView::NoSelection);
-  table_->setFocusPolicy(Qt::NoFocus);
-  table_->setAlternatingRowColors(true);
-  table_->setShowGrid(false);
-  middle->addWidget(plot_, 1);
-  middle->addWidget(table_, 1);
-  column->addLayout(middle, 1);
-  auto* bottom = new QHBoxLayout;
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setAccessibleName(tr("Design on show"));
-  slider_->setToolTip(tr("From the first design to the best; its motion plays in the viewport"));
-  position_ = new QLabel;
-  take_ = new QPushButton(tr("Take This Design"));
-  take_->setToolTip(tr("Puts its parameters into the scene; undo brings the old ones back"));
-  bottom->addWidget(new QLabel(tr("Design")));
-  bottom->addWidget(slider_, 1);
-  bottom->addWidget(position_);
-  bottom->addWidget(take_);
-  column->addLayout(bottom);
-  pages_->addWidget(page);
-
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  targets_ = new TargetBar;
+  whole->addWidget(targets_);
+  pages_ = new QStackedLayout;
+  whole->addLayout(pages_, 1);
+  pages_->addWidget(makeEmptyPage());
+  pages_->addWidget(makePage());
   connect(run_, &QPushButton::clicked, this, [this] {
     if (const auto* own = study()) Q_EMIT runRequested(own->name);
   });
   connect(slider_, &QSlider::valueChanged, this, &DesignPanel::showDesign);
-  connect(plot_, &plots::LinePlot::placeChosen, this,
-          [this](double x) { slider_->setValue(static_cast<int>(std::lround(x))); });
+  connect(
+      plot_, &plots::LinePlot::placeChosen, this, [this](double x) { showDesign(static_cast<int>(std::lround(x))); });
+  connect(compare_, &QPushButton::toggled, this, [this](bool on) {
+    compared_->setEnabled(on);
+    play();
+  });
+  connect(compared_, &QSpinBox::valueChanged, this, &DesignPanel::play);
   connect(take_, &QPushButton::clicked, this, &DesignPanel::takeDesign);
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     result_.reset();
+    problems_.clear();
+    played_.clear();
     shown_ = -1;
+    compare_->setChecked(false);
     refresh();
   });
   connect(&document_, &document::Document::sceneEdited, this, &DesignPanel::refresh);
@@ -137,8 +101,15 @@ void DesignPanel::follow(const std::string& name) {
   const bool began = result && !result->design.history.empty() && own->status == document::StudyStatus::running &&
                      (!result_ || result_->design.history.empty());
   if (result != result_ && result) {
+    const bool another = !result_ || result_->design.history.empty() || result->design.history.empty() ||
+                         result->before().model != result_->before().model;
     result_ = result;
-    if (result->design.history.size() <= 1) follows_ = true;
+    if (another) {
+      follows_ = true;
+      picked_ = false;
+      problems_.clear();
+      played_.clear();
+    }
   }
   refresh();
   if (began) Q_EMIT designsGrow();
@@ -173,33 +144,39 @@ void DesignPanel::refresh() {
   plot_->setChart({.xLabel = tr("design"), .yLabel = tr("objective"), .lines = {std::move(line)}});
   const int last = static_cast<int>(history.size()) - 1;
   {
-    const QSignalBlocker block(slider_);
+    const QSignalBlocker block(slider_), blockOther(compared_);
     slider_->setRange(0, last);
+    compared_->setRange(0, last);
   }
-  showDesign(follows_ || shown_ < 0 ? last : std::min(shown_, last));
+  compare_->setEnabled(last > 0);
+  put(follows_ || shown_ < 0 ? last : std::min(shown_, last));
 }
 
 void DesignPanel::showDesign(int index) {
   if (!result_ || result_->design.history.empty()) return;
+  picked_ = true;
+  played_.clear();
+  put(index);
+}
+
+void DesignPanel::put(int index) {
   const auto& history = result_->design.history;
   const int last = static_cast<int>(history.size()) - 1;
-  const bool another = index != shown_ || !follows_;
   shown_ = std::clamp(index, 0, last);
   follows_ = shown_ == last;
   {
     const QSignalBlocker block(slider_);
     slider_->setValue(shown_);
   }
-  const harmonic::DesignIterate& design = history[static_cast<std::size_t>(shown_)];
   plot_->setInstant(shown_);
   position_->setText(tr("%1 of %2").arg(shown_).arg(last));
   const document::StudyState* own = study();
-  QString text = gainText(*result_, design);
+  QString text = gainText(*result_, history[static_cast<std::size_t>(shown_)]);
   if (own && own->stale) text += tr("  –  the scene has changed since");
   summary_->setText(text);
   take_->setEnabled(own && own->status != document::StudyStatus::running);
   fillTable();
-  if (another && isVisible()) play();
+  if (isVisible()) play();
 }
 
 void DesignPanel::fillTable() {
@@ -222,15 +199,35 @@ void DesignPanel::fillTable() {
   }
 }
 
-void DesignPanel::play() {
-  const harmonic::DesignIterate& design = result_->design.history[static_cast<std::size_t>(shown_)];
-  const auto motion = result_->motionOf(design);
+DesignMotion DesignPanel::motionOf(int index) {
+  const harmonic::DesignIterate& design = result_->design.history[static_cast<std::size_t>(index)];
+  auto& problem = problems_[design.model.get()];
+  if (!problem) problem = result_->motionOf(design)->problem;
   const document::StudyState* own = study();
-  Q_EMIT designChosen(motion->problem, design.z,
-                      tr("%1: %2 of %3")
-                          .arg(own ? QString::fromStdString(own->name) : QString())
-                          .arg(shown_)
-                          .arg(result_->design.history.size() - 1));
+  const bool running = own && own->status == document::StudyStatus::running;
+  const int last = static_cast<int>(result_->design.history.size()) - 1;
+  const QString which = index == 0     ? tr("first design")
+                        : index < last ? tr("design %1 of %2").arg(index).arg(last)
+                        : running      ? tr("best design so far, %1").arg(index)
+                                       : tr("best design, %1").arg(index);
+  return {problem, design.z, tr("%1:  objective %2").arg(which, QString::number(design.objective, 'g', 4))};
+}
+
+void DesignPanel::play() {
+  if (!result_ || result_->design.history.empty() || shown_ < 0) return;
+  const DesignMotion shown = motionOf(shown_);
+  const bool compares = compare_->isChecked();
+  const bool overFirst = !compares && !picked_ && shown_ > 0;
+  const DesignMotion other = motionOf(compares ? compared_->value() : 0);
+  const QString what = QStringLiteral("%1|%2|%3").arg(compares ? 2 : overFirst ? 1 : 0).arg(other.label, shown.label);
+  if (what == played_) return;
+  played_ = what;
+  if (compares)
+    Q_EMIT comparisonChosen(other, shown);
+  else if (overFirst)
+    Q_EMIT progressMade(other, shown);
+  else
+    Q_EMIT designChosen(shown);
 }
 
 void DesignPanel::takeDesign() {
@@ -239,6 +236,8 @@ void DesignPanel::takeDesign() {
     const scene::Json json =
         scene::designedScene(document_.scene(), *result_, result_->design.history[static_cast<std::size_t>(shown_)]);
     document_.setValue("", json, tr("Take design %1").arg(shown_));
+    compare_->setChecked(false);
+    played_.clear();
     Q_EMIT designLeft();
   } catch (const base::InputError& error) {
     document_.raise(base::Severity::warning, QString::fromStdString(error.what()));

@@ -4,10 +4,12 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "ui/panels/compound_row.hpp"
 #include "ui/panels/effect_bar.hpp"
 #include "ui/panels/icon.hpp"
 #include "ui/panels/parameter_row.hpp"
@@ -26,7 +28,7 @@ QString nodeName(const mechanics::Model& model, int node) {
 }
 
 ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession& session, QWidget* parent)
-    : QWidget(parent), document_(document), session_(session) {
+    : QWidget(parent), document_(document), session_(session), trust_(session) {
   auto* head = new QGridLayout;
   head->setContentsMargins(16, 8, 16, 8);
   head->setHorizontalSpacing(8);
@@ -51,6 +53,7 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   head->addWidget(note_, 3, 0, 1, 2);
   head->setColumnStretch(0, 1);
 
+  compound_ = new CompoundRow;
   auto* content = new QWidget;
   list_ = new QVBoxLayout(content);
   list_->setContentsMargins(0, 0, 0, 0);
@@ -73,12 +76,15 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addLayout(head);
+  column->addWidget(compound_);
   column->addWidget(scroll, 1);
 
   connect(update_, &QPushButton::clicked, &session_, &jobs::MotionSession::update);
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     impliedMaxima_.clear();
+    locked_.clear();
     rebuild();
+    refreshGoals();
   });
   connect(&document_, &document::Document::sceneEdited, this, &ParameterPanel::refreshValues);
   connect(&document_, &document::Document::fileChanged, this, &ParameterPanel::refreshValues);
@@ -88,6 +94,8 @@ ParameterPanel::ParameterPanel(document::Document& document, jobs::MotionSession
   connect(&session_, &jobs::MotionSession::nodeChanged, this, &ParameterPanel::refreshSummary);
   connect(&session_, &jobs::MotionSession::measureChanged, this, &ParameterPanel::refreshSummary);
   connect(&session_, &jobs::MotionSession::busyChanged, this, &ParameterPanel::refreshSummary);
+  connect(&trust_, &jobs::TrustedRanges::changed, this, &ParameterPanel::refreshTrust);
+  connectCompound();
   rebuild();
 }
 
@@ -109,11 +117,22 @@ void ParameterPanel::rebuild() {
       auto* row = new ParameterRow(document_, parameter, impliedMaxima_[parameter->name()]);
       connect(row, &ParameterRow::dragged, &session_, &jobs::MotionSession::preview);
       connect(row, &ParameterRow::dragEnded, &session_, &jobs::MotionSession::endPreview);
+      row->setLocked(locked_.contains(row->name()));
+      connect(row, &ParameterRow::lockChanged, this, [this, name = row->name()](bool locked) {
+        if (locked)
+          locked_.insert(name);
+        else
+          locked_.erase(name);
+        refreshDirection();
+      });
       list_->insertWidget(static_cast<int>(rows_.size()), row);
       rows_.push_back(row);
     }
   }
+  refreshTrust();
   empty_->setVisible(rows_.empty());
+  compound_->setVisible(rows_.size() > 1);
+  for (ParameterRow* row : rows_) row->lockButton()->setVisible(rows_.size() > 1);
   refreshSummary();
 }
 
@@ -159,6 +178,10 @@ void ParameterPanel::refreshEffects() {
   for (const auto& effect : session_.effects())
     if (ParameterRow* found = row(effect.pointer)) found->setSlope(effect.slope, largest);
   refreshSummary();
+}
+
+void ParameterPanel::refreshTrust() {
+  for (ParameterRow* each : rows_) each->setTrusted(trust_.range(each->pointer()));
 }
 
 void ParameterPanel::refreshSummary() {

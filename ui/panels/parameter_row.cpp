@@ -1,10 +1,12 @@
 #include "ui/panels/parameter_row.hpp"
 
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QToolButton>
 #include <cmath>
 
 #include "ui/panels/effect_bar.hpp"
+#include "ui/panels/icon.hpp"
 #include "ui/panels/parameter_slider.hpp"
 #include "ui/panels/value_field.hpp"
 #include "ui/panels/value_text.hpp"
@@ -40,7 +42,24 @@ ParameterRow::ParameterRow(document::Document& document, std::shared_ptr<const m
   field_->setToolTip(tr("Double-click to type an exact value, such as \"12 g\"."));
   slider_->setToolTip(tr("Drag to see the predicted motion. Arrow keys nudge, with Shift ten times finer."));
   effect_ = new EffectBar(this);
-  below_->addWidget(effect_, 2, 0, 1, 2);
+  lock_ = new QToolButton(this);
+  lock_->setAutoRaise(true);
+  lock_->setCheckable(true);
+  lock_->setIcon(icon(QStringLiteral("lock")));
+  lock_->setIconSize({14, 14});
+  lock_->setFocusPolicy(Qt::NoFocus);
+  lock_->setAccessibleName(tr("Lock %1").arg(QString::fromStdString(name_)));
+  lock_->setToolTip(tr("Locked, it keeps its value when all parameters are moved together."));
+  auto* effectRow = new QHBoxLayout;
+  effectRow->setSpacing(4);
+  effectRow->addWidget(effect_, 1);
+  effectRow->addWidget(lock_);
+  below_->addLayout(effectRow, 2, 0, 1, 2);
+  connect(lock_, &QToolButton::toggled, this, [this](bool locked) {
+    slider_->setEnabled(!locked);
+    field_->setEnabled(!locked);
+    Q_EMIT lockChanged(locked);
+  });
 
   connect(slider_, &ParameterSlider::dragged, this, [this](double value) {
     const RoundedQuantity near = rounded(value, spec_.dimension);
@@ -69,17 +88,47 @@ void ParameterRow::commit(double value, bool nudge) {
   const QString text =
       tr("%1 to %2").arg(QString::fromStdString(parameter_->name()), QString::fromStdString(near.text));
   if (near.value == 0 && !givesMaximum()) {
-    // Zero implies no maximum: the one that the slider has is written with it.
-    Json changed = document_.scene().json().at(Json::json_pointer(entryPointer()));
-    changed[pointer_.substr(pointer_.rfind('/') + 1)] = near.text;
-    changed["maximum"] = base::formatQuantityExactly(impliedMaximum_, spec_.dimension);
-    document_.setValue(entryPointer(), changed, text);
+    Json changed = document_.scene().json();
+    writeTo(changed, value);
+    document_.setValue(entryPointer(), changed.at(Json::json_pointer(entryPointer())), text);
   } else {
     document_.setValue(pointer_, near.text, text, nudge ? mergeIdOf(pointer_) : -1);
   }
   refresh();
   Q_EMIT dragEnded();
 }
+
+void ParameterRow::writeTo(Json& scene, double value) const {
+  const RoundedQuantity near = rounded(value, spec_.dimension);
+  scene[Json::json_pointer(pointer_)] = near.text;
+  // Zero implies no maximum: the one that the slider has is written with it.
+  if (near.value == 0 && !givesMaximum())
+    scene[Json::json_pointer(entryPointer() + "/maximum")] =
+        base::formatQuantityExactly(impliedMaximum_, spec_.dimension);
+}
+
+void ParameterRow::setTrusted(const std::optional<harmonic::ParameterRange>& range) {
+  QString tip = tr("Drag to see the predicted motion. Arrow keys nudge, with Shift ten times finer.");
+  if (range) {
+    const auto text = [&](double value) { return QString::fromStdString(rounded(value, spec_.dimension).text); };
+    slider_->setTrusted(range->lower, range->upper);
+    tip += tr("\nFrom %1 to %2 the predicted motion is off by less than 10 % of the swing (second-order estimate); the "
+              "track fades beyond. Update solves anew.")
+               .arg(text(range->lower), text(range->upper));
+  } else {
+    slider_->clearTrusted();
+  }
+  slider_->setToolTip(tip);
+}
+
+void ParameterRow::showPreview(double value) {
+  slider_->setRealValue(value);
+  field_->showTransient(QString::fromStdString(rounded(value, spec_.dimension).text));
+}
+
+void ParameterRow::setLocked(bool locked) { lock_->setChecked(locked); }
+
+bool ParameterRow::isLocked() const { return lock_->isChecked(); }
 
 void ParameterRow::type(const QString& text) {
   const Json value = parseText(text, field_->shownText(), spec_);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "core/harmonic/prediction_error.hpp"
 #include "core/mechanics/design_parameter.hpp"
 #include "ui/document/document.hpp"
 #include "ui/panels/slider_row.hpp"
@@ -32,8 +35,19 @@ class ParameterRow final : public SliderRow {
   /// d(amplitude)/d(parameter), SI, and the largest effect |slope · value| of all parameters.
   void setSlope(double slope, double largestEffect);
   void clearSlope();
+  /// Up to where predictions can be trusted; none: not known.
+  void setTrusted(const std::optional<harmonic::ParameterRange>& range);
+  /// Where it would go with others: shown until `refresh`.
+  void showPreview(double value);
+  /// Puts `value` into a scene's JSON as `commit` would.
+  void writeTo(base::Json& scene, double value) const;
+  /// A locked one keeps its value: nothing here and no compound slider moves it.
+  void setLocked(bool locked);
+  bool isLocked() const;
+  QToolButton* lockButton() const { return lock_; }
 
  Q_SIGNALS:
+  void lockChanged(bool locked);
   /// The handle moves; the value has the digits that would be written.
   void dragged(const std::string& pointer, double value);
   void dragEnded();
@@ -52,6 +66,7 @@ class ParameterRow final : public SliderRow {
   double& impliedMaximum_;
   base::ParameterSpec spec_;
   EffectBar* effect_;
+  QToolButton* lock_;
 };
 
 }  // namespace pliant::panels

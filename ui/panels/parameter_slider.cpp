@@ -12,7 +12,8 @@ namespace pliant::panels {
 
 namespace {
 constexpr double handleRadius = 7;
-constexpr int steps = 10000;  ///< of the integer range that assistive technology sees
+constexpr double faintest = 0.4;  // of a track where nothing can be trusted
+constexpr int steps = 10000;       ///< of the integer range that assistive technology sees
 }  // namespace
 
 ParameterSlider::ParameterSlider(QWidget* parent) : QAbstractSlider(parent) {
@@ -37,6 +38,59 @@ void ParameterSlider::setRealValue(double value) {
 void ParameterSlider::setReference(double reference) {
   reference_ = reference;
   update();
+}
+
+void ParameterSlider::setPlannedStep(double step) {
+  if (step == planned_) return;
+  planned_ = step;
+  update();
+}
+
+void ParameterSlider::setTrusted(double low, double high) {
+  trustedLow_ = low;
+  trustedHigh_ = high;
+  trustKnown_ = true;
+  update();
+}
+
+void ParameterSlider::clearTrusted() {
+  if (!trustKnown_) return;
+  trustKnown_ = false;
+  update();
+}
+
+double ParameterSlider::trustAt(double value) const {
+  if (!trustKnown_ || (value >= trustedLow_ && value <= trustedHigh_)) return 1;
+  const double reach = std::max(0.5 * (trustedHigh_ - trustedLow_), 1e-6 * (maximum_ - minimum_));
+  const double beyond = value < trustedLow_ ? trustedLow_ - value : value - trustedHigh_;
+  return std::max(0.0, 1 - beyond / reach);
+}
+
+/// A colour that fades along the track as trust does.
+QBrush ParameterSlider::faded(const QColor& color) const {
+  if (!trustKnown_) return color;
+  constexpr int stops = 48;
+  QLinearGradient gradient(handleRadius + 1, 0, width() - handleRadius - 1, 0);
+  for (int i = 0; i <= stops; ++i) {
+    const double fraction = static_cast<double>(i) / stops;
+    QColor here = color;
+    here.setAlphaF(
+        static_cast<float>(faintest + (1 - faintest) * trustAt(minimum_ + fraction * (maximum_ - minimum_))));
+    gradient.setColorAt(fraction, here);
+  }
+  return gradient;
+}
+
+void ParameterSlider::paintPlan(QPainter& painter, const QColor& color) const {
+  if (planned_ == 0 || !isEnabled()) return;
+  const double middle = height() / 2.0, from = positionOf(value_);
+  const double to = positionOf(std::clamp(value_ + planned_ * (maximum_ - minimum_), minimum_, maximum_));
+  const double sign = planned_ > 0 ? 1 : -1;
+  const double begin = from + sign * (handleRadius + 1);
+  if (sign * (to - begin) < 2) return;
+  painter.setPen(QPen(color, 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawLine(QPointF(begin, middle), QPointF(to, middle));
+  painter.drawPolyline(QPolygonF({{to - 4 * sign, middle - 4}, {to, middle}, {to - 4 * sign, middle + 4}}));
 }
 
 void ParameterSlider::put(double value) {
@@ -68,18 +122,19 @@ void ParameterSlider::paintEvent(QPaintEvent*) {
   const double middle = height() / 2.0;
   const double handle = positionOf(value_);
   const double solved = positionOf(reference_);
-  const auto line = [&](double from, double to, const QColor& color, double thickness, Qt::PenStyle pen) {
-    painter.setPen(QPen(color, thickness, pen, Qt::RoundCap));
+  const auto line = [&](double from, double to, const QBrush& brush, double thickness, Qt::PenStyle pen) {
+    painter.setPen(QPen(brush, thickness, pen, Qt::RoundCap));
     painter.drawLine(QPointF(from, middle), QPointF(to, middle));
   };
-  line(handleRadius + 1, width() - handleRadius - 1, style.grid.darker(plots::isDark(palette()) ? 60 : 112), 4,
+  line(handleRadius + 1, width() - handleRadius - 1, faded(style.grid.darker(plots::isDark(palette()) ? 60 : 112)), 4,
        Qt::SolidLine);
-  line(handleRadius + 1, std::min(handle, solved), isEnabled() ? style.curve : style.stale, 4, Qt::SolidLine);
+  line(handleRadius + 1, std::min(handle, solved), faded(isEnabled() ? style.curve : style.stale), 4, Qt::SolidLine);
   if (moved) {
     line(std::min(handle, solved), std::max(handle, solved), style.prediction, 4, Qt::SolidLine);
     painter.setPen(QPen(style.mutedText, 2));
     painter.drawLine(QPointF(solved, middle - 6), QPointF(solved, middle + 6));
   }
+  paintPlan(painter, style.prediction);
   const QColor ring = moved ? style.prediction : style.curve;
   painter.setPen(QPen(isEnabled() ? ring : style.stale, 2));
   painter.setBrush(style.background);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QAbstractSlider>
+#include <QBrush>
 
 namespace pliant::panels {
 
@@ -20,6 +21,14 @@ class ParameterSlider final : public QAbstractSlider {
   double realMinimum() const { return minimum_; }
   double realMaximum() const { return maximum_; }
   void setReference(double reference);
+  /// Parts of the range by which it would be moved along with others, from where it is: an arrow. 0: none.
+  void setPlannedStep(double step);
+  double plannedStep() const { return planned_; }
+  /// Between these the prediction can be trusted; beyond, the track fades.
+  void setTrusted(double low, double high);
+  void clearTrusted();
+  /// 1 where it can be trusted, towards 0 beyond.
+  double trustAt(double value) const;
   bool isDragging() const { return dragging_; }
 
   /// The middle of the handle, in this widget's coordinates.
@@ -46,11 +55,16 @@ class ParameterSlider final : public QAbstractSlider {
   double positionOf(double value) const;
   double valueAt(double x) const;
   void put(double value);
+  void paintPlan(QPainter& painter, const QColor& color) const;
+  QBrush faded(const QColor& color) const;
 
   double minimum_ = 0;
   double maximum_ = 1;
   double value_ = 0;
   double reference_ = 0;
+  double planned_ = 0;
+  double trustedLow_ = 0, trustedHigh_ = 0;
+  bool trustKnown_ = false;
   double before_ = 0;  ///< the drag
   double grip_ = 0;    ///< from the handle's middle to where it was seized
   bool dragging_ = false;

@@ -33,6 +33,7 @@ SliderRow::SliderRow(const QString& name, const base::ParameterSpec& spec, Ends 
                      ? name.toHtmlEscaped()
                      : QStringLiteral("%1&nbsp;&nbsp;<i>%2</i>")
                            .arg(name.toHtmlEscaped(), QString::fromStdString(spec.symbol).toHtmlEscaped()));
+  title->setWordWrap(true);
   title->setToolTip(explanation(spec));
   field_ = new ValueField(this);
   field_->setFixedWidth(fieldWidth);

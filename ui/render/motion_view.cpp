@@ -1,46 +1,21 @@
 #include "ui/render/motion_view.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/mechanics/strain.hpp"
 #include "ui/render/color_map.hpp"
-#include "ui/render/figure.hpp"
-#include "ui/render/predicted_motion.hpp"
+#include "ui/render/ghost.hpp"
+#include "ui/render/node_paths.hpp"
 #include "ui/render/ring.hpp"
 #include "ui/render/stage.hpp"
+#include "ui/render/target_figure.hpp"
 
 namespace pliant::render {
 namespace {
 
-constexpr int curveSamples = 256;
-constexpr double dashLength = 0.012;  // of the model's extent
-/// At least so many instants of a period tell how far the motion reaches and how much it stretches: a solver may take
-/// so few samples that more happens between them.
-constexpr int fewestInstants = 64;
-
 using harmonic::HarmonicBalanceProblem;
 using mechanics::Matrix;
 using mechanics::Vector;
-
-/// The closed paths of some nodes, one column a place.
-std::vector<Points> nodePaths(const HarmonicBalanceProblem& problem, const Matrix& trajectories,
-                              const std::vector<int>& nodes) {
-  const math::HarmonicBasis& basis = problem.basis();
-  // The samples' trigonometric interpolant, so that paths are smooth however few samples the solver takes.
-  Matrix interpolation(curveSamples, basis.size());
-  for (int i = 0; i < curveSamples; ++i)
-    interpolation.row(i) = basis.valuesAt(2.0 * std::numbers::pi * i / curveSamples).transpose();
-  const int dimension = problem.model().dimension;
-  std::vector<Points> paths;
-  for (const int node : nodes) {
-    const Matrix samples = trajectories.middleCols(node * dimension, dimension);
-    Points path = Points::Zero(3, curveSamples);
-    path.topRows(dimension) = (interpolation * (basis.analysis() * samples)).transpose();
-    paths.push_back(std::move(path));
-  }
-  return paths;
-}
 
 }  // namespace
 
@@ -48,10 +23,10 @@ struct MotionView::Parts {
   Stage& stage;
   vtkNew<vtkLookupTable> table;
   Figure solved{Figure::Kind::solved};
-  Figure predicted{Figure::Kind::ghost};
+  Ghost ghost;
   LinePrimitive paths{2.5};
-  LinePrimitive predictedPaths{2.5};
   DotPrimitive probeDots{8.0};
+  TargetFigure targets;
   Ring selectionRing;
 
   double tau = 0;
@@ -62,28 +37,31 @@ struct MotionView::Parts {
   std::shared_ptr<const HarmonicBalanceProblem> problem;
   Vector z;
   Matrix trajectories;
-  std::optional<PredictedMotion> prediction;
+  std::string ghostLabel;
   std::optional<int> selected;
-  double leastStretch = 0, mostStretch = 0;
+  FieldRange ownRange;
+  std::optional<FieldRange> sharedRange;
+  Points reach{3, 0};  ///< of the solved motion
+  Points beyond{3, 0};
   Points pose;
 
   explicit Parts(Stage& around) : stage(around) {
     vtkRenderer* renderer = stage.renderer();
     solved.addTo(renderer);
     for (vtkActor* actor : {paths.actor(), probeDots.actor()}) renderer->AddActor(actor);
-    predicted.addTo(renderer);
-    renderer->AddActor(predictedPaths.actor());
+    ghost.addTo(renderer);
+    targets.addTo(renderer);
     selectionRing.addTo(renderer);
-    for (LinePrimitive* lines : {&paths, &predictedPaths})
-      lines->actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -6);
+    paths.actor()->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(-1, -6);
     stage.legend().setTable(table);
     stage.onLayOut = [this] {
+      targets.layOut(stage.camera());
       selectionRing.setPlace(model && selected ? stage.camera().pixelOf(pose.col(*selected)) : std::nullopt);
     };
     stage.onTheme = [this] { applyTheme(); };
     stage.onPixelRatio = [this] { applyPixelRatio(); };
     stage.onField = [this] {
-      stage.setLegendVisible(showsField());
+      showScale();
       showPose();
     };
     showMotion();
@@ -93,14 +71,14 @@ struct MotionView::Parts {
   void applyTheme() {
     const Palette& colors = stage.colors();
     solved.setTheme(colors, stale);
-    predicted.setTheme(colors, false);
+    ghost.setTheme(colors);
     setColor(paths.actor(), stale ? faded(colors.trajectory) : colors.trajectory);
     setColor(probeDots.actor(), stale ? faded(colors.trajectory) : colors.trajectory);
-    setColor(predictedPaths.actor(), colors.prediction);
+    targets.setTheme(colors);
     selectionRing.setColors(colors.text, colors.background);
-    setViridis(table, leastStretch, mostStretch, stale);
-    if (prediction)
-      stage.setNotice("▨ predicted", colors.prediction);
+    setViridis(table, range().least, range().most, stale);
+    if (ghost.isShown())
+      stage.setNotice("▨ " + ghostLabel, colors.prediction);
     else
       stage.setNotice(stale && problem ? "inputs have changed since this was solved" : "", colors.text);
   }
@@ -108,9 +86,10 @@ struct MotionView::Parts {
   void applyPixelRatio() {
     const double ratio = stage.pixelRatio();
     solved.setPixelRatio(ratio);
-    predicted.setPixelRatio(ratio);
-    for (LinePrimitive* lines : {&paths, &predictedPaths}) lines->setPixelRatio(ratio);
+    ghost.setPixelRatio(ratio);
+    paths.setPixelRatio(ratio);
     probeDots.setPixelRatio(ratio);
+    targets.setPixelRatio(ratio);
     selectionRing.setPixelRatio(ratio);
   }
 
@@ -122,37 +101,43 @@ struct MotionView::Parts {
            1.0;
   }
 
+  const FieldRange& range() const { return sharedRange ? *sharedRange : ownRange; }
+
   /// Everything that depends on the solved motion but not on τ.
   void showMotion() {
     trajectories = problem ? problem->trajectories(z) : Matrix();
-    Points reach = model ? layout.places(model->restPositions) : Points(3, 0);
-    leastStretch = 0;
-    mostStretch = 0;
-    const Eigen::Index instants = problem ? std::max<Eigen::Index>(fewestInstants, trajectories.rows()) : 0;
-    if (problem) reach.resize(3, instants * reach.cols());
-    for (Eigen::Index i = 0; i < instants; ++i) {
-      const Vector positions =
-          problem->configurationAt(z, 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(instants));
-      const Points sample = layout.places(positions);
-      reach.middleCols(i * sample.cols(), sample.cols()) = sample;
-      if (layout.triangles.empty()) continue;
-      const Vector values = stretch(positions);
-      leastStretch = i == 0 ? values.minCoeff() : std::min(leastStretch, values.minCoeff());
-      mostStretch = i == 0 ? values.maxCoeff() : std::max(mostStretch, values.maxCoeff());
+    reach = model ? layout.places(model->restPositions) : Points(3, 0);
+    ownRange = {};
+    if (problem) {
+      const Matrix instants = instantsOf({problem, z, nullptr});
+      reach = reachOf(layout, instants);
+      for (Eigen::Index i = 0; !layout.triangles.empty() && i < instants.rows(); ++i) {
+        const Vector values = stretch(instants.row(i).transpose());
+        ownRange.least = i == 0 ? values.minCoeff() : std::min(ownRange.least, values.minCoeff());
+        ownRange.most = i == 0 ? values.maxCoeff() : std::max(ownRange.most, values.maxCoeff());
+      }
     }
-    mostStretch = std::max(mostStretch, leastStretch + 1e-12);
+    ownRange.most = std::max(ownRange.most, ownRange.least + 1e-12);
     layout.setReach(reach);
-    for (Figure* figure : {&solved, &predicted}) {
-      figure->setLayout(layout);
-      if (model) figure->setMassRadii(layout, layout.massRadii(*model));
-    }
-    if (reach.cols() == 0) reach = Points::Zero(3, 1);
-    stage.camera().setReach(std::move(reach));
-    stage.legend().setRange(leastStretch, mostStretch);
-    stage.setLegendVisible(showsField());
+    solved.setLayout(layout);
+    if (model) solved.setMassRadii(layout, layout.massRadii(*model));
+    ghost.setLayout(layout);
+    showReach();
+    showScale();
     showPaths();
     showPose();
     applyTheme();
+  }
+
+  void showReach() {
+    Points all = joined(joined(reach, ghost.reach()), joined(targets.reach(), beyond));
+    if (all.cols() == 0) all = Points::Zero(3, 1);
+    stage.camera().setReach(std::move(all));
+  }
+
+  void showScale() {
+    stage.legend().setRange(range().least, range().most);
+    stage.setLegendVisible(showsField() && !sharedRange);
   }
 
   std::vector<int> tracedNodes() const {
@@ -164,20 +149,13 @@ struct MotionView::Parts {
   void showPaths() {
     paths.actor()->SetVisibility(problem != nullptr);
     if (problem) paths.setClosedCurves(nodePaths(*problem, trajectories, tracedNodes()), 0);
-    showPredictedPaths();
-  }
-
-  void showPredictedPaths() {
-    predictedPaths.actor()->SetVisibility(problem && prediction);
-    if (problem && prediction)
-      predictedPaths.setClosedCurves(
-          nodePaths(*problem, prediction->trajectories(), tracedNodes()), dashLength * layout.size);
+    ghost.showPaths(tracedNodes());
   }
 
   void showPose() {
     solved.setVisible(model != nullptr);
     probeDots.actor()->SetVisibility(problem != nullptr);
-    showPredictedPose();
+    ghost.showPose(tau);
     if (!model) return;
     const Vector positions = problem ? problem->configurationAt(z, tau) : model->restPositions;
     pose = layout.pose(positions);
@@ -188,9 +166,18 @@ struct MotionView::Parts {
     probeDots.setPoints(pose);
   }
 
-  void showPredictedPose() {
-    predicted.setVisible(problem && prediction);
-    if (problem && prediction) predicted.setPose(layout.pose(prediction->configurationAt(tau)));
+  void showGhost(const std::string& label) {
+    const bool relabel = label != ghostLabel;
+    ghostLabel = label;
+    ghost.setVisible(true);
+    ghost.showPaths(tracedNodes());
+    ghost.showPose(tau);
+    if (relabel) applyTheme();
+  }
+
+  void clearGhost() {
+    ghostLabel.clear();
+    ghost.clear();
   }
 };
 
@@ -202,7 +189,7 @@ void MotionView::setModel(std::shared_ptr<const mechanics::Model> model) {
   Parts& p = *parts_;
   p.model = std::move(model);
   p.problem.reset();
-  p.prediction.reset();
+  p.clearGhost();
   p.selected.reset();
   p.stale = false;
   p.layout = p.model ? FigureLayout(*p.model) : FigureLayout();
@@ -213,7 +200,7 @@ void MotionView::setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProble
   Parts& p = *parts_;
   p.problem = std::move(problem);
   p.z = std::move(z);
-  p.prediction.reset();
+  p.clearGhost();
   p.stale = false;
   p.showMotion();
 }
@@ -221,7 +208,7 @@ void MotionView::setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProble
 void MotionView::clearMotion() {
   Parts& p = *parts_;
   p.problem.reset();
-  p.prediction.reset();
+  p.clearGhost();
   p.stale = false;
   p.showMotion();
 }
@@ -229,22 +216,63 @@ void MotionView::clearMotion() {
 void MotionView::setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel) {
   Parts& p = *parts_;
   if (!p.problem) return;
-  const bool first = !p.prediction;
-  p.predicted.setMassRadii(p.layout, p.layout.massRadii(changedModel ? *changedModel : *p.model));
-  p.prediction = {p.problem, z, std::move(changedModel)};
-  p.showPredictedPaths();
-  p.showPredictedPose();
-  if (first) p.applyTheme();
+  const mechanics::Model& masses = changedModel ? *changedModel : *p.model;
+  p.ghost.setPrediction({p.problem, z, changedModel}, masses);
+  p.showGhost("predicted");
 }
+
+void MotionView::setGhost(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z,
+                          const std::string& label) {
+  Parts& p = *parts_;
+  if (!p.problem) return;
+  p.ghost.setOther({std::move(problem), z, nullptr});
+  p.showGhost(label);
+  p.showReach();
+}
+
+bool MotionView::showsGhost() const { return parts_->ghost.isShown(); }
 
 void MotionView::clearPrediction() {
   Parts& p = *parts_;
-  if (!p.prediction) return;
-  p.prediction.reset();
-  p.showPredictedPaths();
-  p.showPredictedPose();
+  if (!p.ghost.isShown()) return;
+  p.clearGhost();
+  p.showReach();
   p.applyTheme();
 }
+
+FieldRange MotionView::fieldRange() const { return parts_->ownRange; }
+
+void MotionView::setSharedRange(std::optional<FieldRange> range) {
+  Parts& p = *parts_;
+  p.sharedRange = range;
+  p.showScale();
+  p.showPose();
+  p.applyTheme();
+}
+
+Points MotionView::reach() const { return joined(parts_->reach, parts_->ghost.reach()); }
+
+void MotionView::setBeyond(Points beyond) {
+  parts_->beyond = std::move(beyond);
+  parts_->showReach();
+}
+
+vtkLookupTable* MotionView::colorTable() const { return parts_->table; }
+
+bool MotionView::showsField() const { return parts_->showsField(); }
+
+void MotionView::setTargets(std::vector<TargetCurve> targets) {
+  parts_->targets.setTargets(std::move(targets));
+  parts_->showReach();
+}
+
+const std::vector<TargetCurve>& MotionView::targets() const { return parts_->targets.targets(); }
+
+void MotionView::setGizmoVisible(bool visible) { stage().setGizmoVisible(visible); }
+
+vtkRenderer* MotionView::renderer() const { return parts_->stage.renderer(); }
+
+const CameraControl& MotionView::camera() const { return stage().camera(); }
 
 void MotionView::setStale(bool stale) {
   if (parts_->stale == stale) return;

@@ -60,7 +60,8 @@ void Stage::attach(vtkRenderWindow* window) {
 void Stage::layOut() {
   const int* size = renderer_->GetSize();
   legend_.layOut(size[0], size[1]);
-  gizmo_.follow(renderer_->GetActiveCamera(), size[0], size[1]);
+  const int* whole = window_->GetSize();
+  gizmo_.follow(renderer_->GetActiveCamera(), whole[0], whole[1]);
   if (onLayOut) onLayOut();
   const double margin = captionMargin * ratio_;
   caption_->SetPosition(margin, size[1] - margin);

@@ -39,6 +39,7 @@
 #include "ui/shell/live_bar.hpp"
 #include "ui/shell/live_link.hpp"
 #include "ui/shell/shipped_files.hpp"
+#include "ui/shell/target_link.hpp"
 #include "ui/shell/viewport_link.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -191,7 +192,10 @@ void MainWindow::connectParts() {
   connectInterlock();
   connect(modes_, &panels::ModesPanel::modeChosen, link, &ViewportLink::showMode);
   connect(modes_, &panels::ModesPanel::modeLeft, link, &ViewportLink::showMotion);
+  targets_ = new TargetLink(document_, session_, *viewport_, *design_->targetBar(), this);
   connect(design_, &panels::DesignPanel::designChosen, link, &ViewportLink::showDesign);
+  connect(design_, &panels::DesignPanel::progressMade, link, &ViewportLink::showProgress);
+  connect(design_, &panels::DesignPanel::comparisonChosen, link, &ViewportLink::showComparison);
   connect(design_, &panels::DesignPanel::designLeft, link, &ViewportLink::showMotion);
   connect(design_, &panels::DesignPanel::runRequested, this, [this](const std::string& name) { session_.run({name}); });
   connect(design_, &panels::DesignPanel::designsGrow, this, [this] {

@@ -52,6 +52,7 @@ class Gallery;
 class JobStatus;
 class LiveBar;
 class MakeDialog;
+class TargetLink;
 
 /// Puts document, jobs, viewport, plot and panels together. Without `remember` nothing is read from or written to the
 /// user's settings.
@@ -76,6 +77,7 @@ class MainWindow final : public QMainWindow {
   panels::ModesPanel& modes() { return *modes_; }
   panels::MotionPanel& motion() { return *motion_; }
   panels::DesignPanel& design() { return *design_; }
+  TargetLink& targets() { return *targets_; }
   panels::MessageBar& messages() { return *messages_; }
   panels::SceneTree& sceneTree() { return *tree_; }
   panels::LimitPanel& limits() { return *limits_; }
@@ -194,6 +196,7 @@ class MainWindow final : public QMainWindow {
   panels::ModesPanel* modes_ = nullptr;
   panels::MotionPanel* motion_ = nullptr;
   panels::DesignPanel* design_ = nullptr;
+  TargetLink* targets_ = nullptr;
   panels::LimitPanel* limits_ = nullptr;
   panels::EnergyPanel* energies_ = nullptr;
   panels::LogPanel* log_ = nullptr;

@@ -29,6 +29,8 @@ ViewportLink::ViewportLink(document::Document& document, jobs::MotionSession& se
     showModel();
   });
   connect(&document_, &document::Document::sceneEdited, this, [this] {
+    // What parameters have moved is predicted from the motion on show, in its own shape.
+    if (session_.shown() && session_.isComparable()) return;
     if (!drawn_ || !looksAlike(*drawn_, *document_.model())) {
       showModel();
       showMotion();
@@ -43,7 +45,10 @@ ViewportLink::ViewportLink(document::Document& document, jobs::MotionSession& se
 }
 
 void ViewportLink::showModel() {
-  drawn_ = document_.model();
+  own_ = true;
+  design_ = nullptr;
+  const auto& shown = session_.shown();
+  drawn_ = shown && session_.isComparable() ? shown->problem->sharedModel() : document_.model();
   viewport_.setModel(drawn_);
   viewport_.setStale(false);
   viewport_.setSelectedNode(session_.node());
@@ -51,9 +56,13 @@ void ViewportLink::showModel() {
 }
 
 void ViewportLink::showMotion() {
-  // A design may have put another shape there.
-  if (document_.model() && drawn_ && !looksAlike(*drawn_, *document_.model())) showModel();
+  own_ = true;
+  design_ = nullptr;
+  viewport_.clearBeside();
   const auto& shown = session_.shown();
+  // A design may have put another shape there.
+  const auto own = shown && session_.isComparable() ? shown->problem->sharedModel() : document_.model();
+  if (own && drawn_ && !looksAlike(*drawn_, *own)) showModel();
   const bool fits = shown && drawn_ && looksAlike(shown->problem->model(), *drawn_);
   if (!fits) {
     viewport_.clearPrediction();
@@ -71,24 +80,44 @@ void ViewportLink::showMotion() {
 void ViewportLink::showMode(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
                             const harmonic::Vector& z, const QString& caption) {
   if (!drawn_ || !looksAlike(problem->model(), *drawn_)) return;
+  own_ = false;
+  design_ = nullptr;
+  viewport_.clearBeside();
   viewport_.setMotion(problem, z);
   viewport_.setSelectedNode(session_.node());
   viewport_.setCaption(document_.title() + '\n' + caption);
   viewport_.play();
 }
 
-void ViewportLink::showDesign(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
-                              const harmonic::Vector& z, const QString& caption) {
-  if (!drawn_ || !looksAlike(problem->model(), *drawn_)) {
-    drawn_ = std::make_shared<const mechanics::Model>(problem->model());
+void ViewportLink::showDesign(const panels::DesignMotion& design) {
+  if (!drawn_ || !looksAlike(design.problem->model(), *drawn_)) {
+    drawn_ = design.problem->sharedModel();
     viewport_.setModel(drawn_);
   }
   viewport_.clearPrediction();
   viewport_.setStale(false);
-  showMode(problem, z, caption);
+  showMode(design.problem, design.z, design.label);
+  design_ = design.problem.get();
+}
+
+void ViewportLink::showProgress(const panels::DesignMotion& first, const panels::DesignMotion& best) {
+  if (design_ != first.problem.get() || viewport_.pair()) showDesign(first);
+  viewport_.setGhost(best.problem, best.z, best.label);
+}
+
+void ViewportLink::showComparison(const panels::DesignMotion& left, const panels::DesignMotion& right) {
+  if (design_ != left.problem.get() || !viewport_.pair()) showDesign(left);
+  viewport_.setCaption(left.label);
+  viewport_.setBeside(right.problem, right.z, right.label);
 }
 
 void ViewportLink::showPrediction() {
+  // A mode or a design stays until parameters are dragged, which is about the session's motion.
+  if (!own_ && !session_.isPreviewing()) return;
+  if (!own_) {
+    showMotion();
+    return;
+  }
   const auto& shown = session_.shown();
   if (!shown || !drawn_ || !looksAlike(shown->problem->model(), *drawn_)) return;
   viewport_.setStale(session_.isStale());

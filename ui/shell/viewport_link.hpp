@@ -3,6 +3,7 @@
 #include <QObject>
 
 #include "ui/jobs/motion_session.hpp"
+#include "ui/panels/design_motion.hpp"
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::shell {
@@ -21,8 +22,10 @@ class ViewportLink final : public QObject {
   void showMode(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const harmonic::Vector& z,
                 const QString& caption);
   /// The motion of a design, whose shape at rest may be another one than the document's, until something else is shown.
-  void showDesign(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem, const harmonic::Vector& z,
-                  const QString& caption);
+  void showDesign(const panels::DesignMotion& design);
+  /// The best design's motion as a ghost over the first one's.
+  void showProgress(const panels::DesignMotion& first, const panels::DesignMotion& best);
+  void showComparison(const panels::DesignMotion& left, const panels::DesignMotion& right);
 
  private:
   void showModel();
@@ -33,6 +36,8 @@ class ViewportLink final : public QObject {
   jobs::MotionSession& session_;
   viewport::Viewport& viewport_;
   std::shared_ptr<const mechanics::Model> drawn_;
+  bool own_ = true;               ///< the session's motion is on show, if it has one
+  const void* design_ = nullptr;  ///< the problem of the design on show
 };
 
 }  // namespace pliant::shell

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <utility>
 
+#include "ui/render/motion_pair.hpp"
+#include "ui/viewport/mouse_tool.hpp"
 #include "ui/viewport/render_surface.hpp"
 
 namespace pliant::viewport {
@@ -36,6 +38,10 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   attachToSurface();
   surface_->onResize = [this](double pixelRatio) {
     view_->setPixelRatio(pixelRatio);
+    if (pair_) {
+      pair_->setPixelRatio(pixelRatio);
+      pair_->layOut();
+    }
     if (framed_) view_->fit();
   };
   timer_.setInterval(frameInterval);
@@ -45,7 +51,7 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
   settleTimer_.setSingleShot(true);
   connect(&settleTimer_, &QTimer::timeout, this, [this] {
     if (isPlaying()) return;  // the next frame is on its way
-    view_->setFineQuality(true);
+    setFineQuality(true);
     surface_->requestRender();
   });
   view_->setAxisView(render::AxisView::isometric);
@@ -54,6 +60,7 @@ Viewport::Viewport(QWidget* parent) : QWidget(parent), surface_(makeRenderSurfac
 
 Viewport::~Viewport() {
   surface_->onResize = nullptr;
+  pair_.reset();
   view_->attach(nullptr);
 }
 
@@ -63,6 +70,7 @@ void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
   const bool other = nodes != nodeCount_ || dimension != dimension_;
   nodeCount_ = nodes;
   dimension_ = dimension;
+  clearBeside();
   setCloth(nullptr);
   motion_.setModel(std::move(model));
   if (other) {
@@ -75,6 +83,7 @@ void Viewport::setModel(std::shared_ptr<const mechanics::Model> model) {
 
 void Viewport::setMotion(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z) {
   motion_.setMotion(std::move(problem), z);
+  if (pair_) pair_->share();
   // The first motion is brought into view; later ones are compared with it at the same scale.
   if (framed_ && !motionFramed_) motion_.fit();
   motionFramed_ = true;
@@ -104,6 +113,7 @@ void Viewport::setStale(bool stale) {
 
 void Viewport::setSelectedNode(std::optional<int> node) {
   motion_.setSelectedNode(node);
+  if (pair_) pair_->right().setSelectedNode(node);
   cloth_.setSelectedNode(node);
   redraw();
 }
@@ -117,6 +127,7 @@ void Viewport::setCaption(const QString& text) {
 
 void Viewport::setFieldVisible(bool visible) {
   motion_.setFieldVisible(visible);
+  if (pair_) pair_->setFieldVisible(visible);
   cloth_.setFieldVisible(visible);
   if (guest_) guest_->setFieldVisible(visible);
   redraw();
@@ -161,6 +172,7 @@ void Viewport::setTau(double tau) {
   if (wrapped < 0) wrapped += fullTurn;
   if (wrapped == motion_.tau()) return;
   motion_.setTau(wrapped);
+  if (pair_) pair_->setTau(wrapped);
   redraw(true);
   Q_EMIT tauChanged(wrapped);
 }
@@ -187,15 +199,21 @@ void Viewport::changeEvent(QEvent* event) {
 void Viewport::mousePressEvent(QMouseEvent* event) {
   pressPosition_ = lastPosition_ = event->position();
   dragged_ = false;
+  if (pressTool(event->position(), event->button(), event->modifiers())) return;
   if (live_ && event->button() == Qt::LeftButton) beginPull(*event);
   if (showsCell() && event->button() == Qt::LeftButton) beginGrip(*event);
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
+  if (toolHolds_) {
+    dragTool(event->position());
+    return;
+  }
   const bool turns = event->buttons() & (Qt::LeftButton | Qt::RightButton);
   const bool middle = event->buttons() & Qt::MiddleButton;
   if (!turns && !middle) {
     if (live_ || showsCell()) refreshCursor(event->position());
+    if (tool_ && view_ == &motion_) hoverTool(event->position());
     Q_EMIT hovered(event->position());
     return;
   }
@@ -221,6 +239,10 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  if (toolHolds_) {
+    releaseTool();
+    return;
+  }
   if (event->button() != Qt::LeftButton) return;
   if (pulled_) endPull(event->modifiers() & Qt::ControlModifier);
   if (grip_) endGrip();
@@ -228,8 +250,8 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 std::optional<int> Viewport::nodeAt(const QPointF& place) const {
-  const double ratio = devicePixelRatioF();
-  return view_->pickNode(place.x() * ratio, place.y() * ratio, pickRadius * ratio);
+  const auto [view, pixel] = halfAt(place);
+  return view.pickNode(pixel.x(), pixel.y(), pickRadius * devicePixelRatioF());
 }
 
 void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -239,7 +261,7 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void Viewport::wheelEvent(QWheelEvent* event) {
-  const QPointF place = event->position() * devicePixelRatioF();
+  const QPointF place = halfAt(event->position()).second;
   framed_ = false;
   view_->zoom(std::pow(zoomPerNotch, event->angleDelta().y() / wheelNotch), place.x(), place.y());
   redraw(true);
@@ -256,7 +278,9 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
     case Qt::Key_Space: togglePlaying(); break;
     case Qt::Key_Escape:
-      if (pulled_)
+      if (tool_ && tool_->escape())
+        toolHolds_ = false;
+      else if (pulled_)
         endPull(false);
       else if (grip_)
         endGrip();
@@ -286,8 +310,13 @@ void Viewport::advance() {
 void Viewport::redraw(bool moving) {
   // What moved a moment ago stays rough whatever else is redrawn: a drag changes the caption as well.
   if ((moving || isPlaying()) && surface_->drawsInSoftware()) settleTimer_.start();
-  view_->setFineQuality(!settleTimer_.isActive());
+  setFineQuality(!settleTimer_.isActive());
   surface_->requestRender();
+}
+
+void Viewport::setFineQuality(bool fine) {
+  view_->setFineQuality(fine);
+  if (pair_) pair_->setFineQuality(fine);
 }
 
 void Viewport::attachToSurface() { view_->attach(surface_->window()); }
@@ -295,7 +324,7 @@ void Viewport::attachToSurface() { view_->attach(surface_->window()); }
 void Viewport::settle() {
   if (!settleTimer_.isActive()) return;
   settleTimer_.stop();
-  view_->setFineQuality(true);
+  setFineQuality(true);
   surface_->requestRender();
 }
 
@@ -306,6 +335,7 @@ render::Theme Viewport::theme() const {
 void Viewport::applyTheme() {
   for (render::View* view : std::initializer_list<render::View*>{&motion_, &cloth_, &cell_}) view->setTheme(theme());
   if (guest_) guest_->setTheme(theme());
+  if (pair_) pair_->setTheme(theme());
   redraw();
 }
 

@@ -7,6 +7,7 @@
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/harmonic/harmonic_balance_problem.hpp"
 #include "ui/render/cell_view.hpp"
@@ -14,8 +15,13 @@
 #include "ui/render/film.hpp"
 #include "ui/render/motion_view.hpp"
 
+namespace pliant::render {
+class MotionPair;
+}
+
 namespace pliant::viewport {
 
+class MouseTool;
 class RenderSurface;
 
 /// The widget that shows a model and plays its motion, or a cloth and its frames. Left drag orbits, middle or shift
@@ -36,6 +42,21 @@ class Viewport : public QWidget {
   void clearMotion();
   void setPrediction(const mechanics::Vector& z, std::shared_ptr<const mechanics::Model> changedModel = nullptr);
   void clearPrediction();
+  void setGhost(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z,
+                const QString& label);
+  /// Shows another motion to the right of the one on show, whose model has the same nodes: both in step, seen by one
+  /// camera, coloured by one scale.
+  void setBeside(std::shared_ptr<const harmonic::HarmonicBalanceProblem> problem, const mechanics::Vector& z,
+                 const QString& caption);
+  void clearBeside();
+  /// Null: the motion has the viewport to itself.
+  const render::MotionPair* pair() const { return pair_.get(); }
+  /// Gets the mouse first while a motion or a model is shown; outlives that. Null: none.
+  void setTool(MouseTool* tool);
+  const MouseTool* tool() const { return tool_; }
+  render::MotionView& motionView() { return motion_; }
+  /// Redraws after something was set at motionView().
+  void redrawMotion() { redraw(true); }
   void setStale(bool stale);
   void setSelectedNode(std::optional<int> node);
   void setCaption(const QString& text);
@@ -155,12 +176,18 @@ class Viewport : public QWidget {
   void moveGrip(const QPointF& place);
   void endGrip();
   std::optional<render::CellPick> gripAt(const QPointF& place) const;
+  bool pressTool(const QPointF& place, Qt::MouseButton button, Qt::KeyboardModifiers modifiers);
+  void dragTool(const QPointF& place);
+  void releaseTool();
+  void hoverTool(const QPointF& place);
+  std::pair<render::View&, QPointF> halfAt(const QPointF& place) const;
   void refreshCursor(const QPointF& place);
   void showView(render::View& view);
   void showOwnView();
   void attachToSurface();
   /// `moving`: more of the kind is to come soon.
   void redraw(bool moving = false);
+  void setFineQuality(bool fine);
   void applyTheme();
   render::Theme theme() const;
 
@@ -170,6 +197,9 @@ class Viewport : public QWidget {
   std::shared_ptr<render::View> guest_;
   render::View* view_ = &motion_;  ///< what is shown
   std::unique_ptr<RenderSurface> surface_;
+  std::unique_ptr<render::MotionPair> pair_;
+  MouseTool* tool_ = nullptr;
+  bool toolHolds_ = false;
   QTimer timer_;
   QTimer settleTimer_;
   QElapsedTimer clock_;

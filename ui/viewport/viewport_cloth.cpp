@@ -7,6 +7,7 @@
 namespace pliant::viewport {
 void Viewport::showView(render::View& view) {
   if (view_ == &view) return;
+  clearBeside();
   view_->attach(nullptr);
   view_ = &view;
   view_->setPixelRatio(devicePixelRatioF());

@@ -1,6 +1,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/scene/csv_table.hpp"
@@ -9,6 +10,7 @@
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/study.hpp"
+#include "core/scene/target_path.hpp"
 
 using namespace pliant;
 using scene::DesignResult;
@@ -84,6 +86,7 @@ class TestDesignStudies : public QObject {
   void takesAllParametersIfNoneAreNamed();
   void changesStiffnessElementByElement();
   void readsTargetPathsFromFiles();
+  void splinesThroughAnEllipseAreNearlyAnEllipse();
   void writesItsTables();
   void showsEveryDesign();
   void designsAreTakenIntoTheScene();
@@ -172,6 +175,31 @@ void TestDesignStudies::readsTargetPathsFromFiles() {
       {"type", "path"}, {"paths", Json::array({{{"probe", "body"}, {"points", points}}})}, {"phases", 2048}};
   const auto same = run(withOption("objectives", Json::array({inlinePath}), directory));
   QVERIFY(std::abs(same->after().values[0] - result->after().values[0]) < 1e-3);
+}
+
+/// Twelve points of a sine's path make a spline that misses it by less than a thousandth of its swing, so the design
+/// ends where that for the sine itself does.
+void TestDesignStudies::splinesThroughAnEllipseAreNearlyAnEllipse() {
+  const auto designed = [](const std::string& form, int count) {
+    Json places = Json::array();
+    for (int i = 0; i < count; ++i) places.push_back({0.08 * std::cos(2 * std::numbers::pi * i / count), 0});
+    const Json path{{"type", "path"}, {"paths", Json::array({{{"probe", "body"}, {form, places}}})}, {"phases", 2048}};
+    return run(withOption("objectives", Json::array({path})));
+  };
+  const auto exact = designed("points", 64), spline = designed("spline", 12);
+  QVERIFY(std::abs(spline->after().values[0] - exact->after().values[0]) <= 1e-3 * exact->after().values[0]);
+  const Scene scene = withOption("objectives", Json::parse(R"([{"type": "path", "match_place": true, "paths": [
+          {"probe": "corner", "points": [["1 cm", 0], [0, 1], [-1, 0]]},
+          {"probe": "body", "spline": [[1, 0], [0, 1], [-1, 0], ["0", "-10 mm"]]}]}])"));
+  const auto targets = scene::targetPaths(scene, *scene::buildModel(scene));
+  QCOMPARE(targets.size(), std::size_t(2));
+  QCOMPARE(targets[0].pointer, std::string("/studies/0/objectives/0/paths/0"));
+  QCOMPARE(targets[0].places(0, 0), 0.01);
+  QCOMPARE(targets[0].controlPoints.cols(), Eigen::Index(0));
+  QCOMPARE(targets[1].probe, std::string("body"));
+  QVERIFY(targets[1].matchPlace);
+  QCOMPARE(targets[1].controlPoints.cols(), Eigen::Index(4));
+  QCOMPARE(targets[1].controlPoints(1, 3), -0.01);
 }
 
 void TestDesignStudies::writesItsTables() {

@@ -36,6 +36,42 @@ class TestParameterSlider : public QObject {
     QCOMPARE(committed[0][1].toBool(), false);
   }
 
+  /// Full within the trusted range, fainter beyond it, and as ever where nothing is known.
+  void theTrackFadesWhereItCannotBeTrusted() {
+    const auto contrastAt = [&](double value) {
+      const QImage picture = slider_->grab().toImage();
+      const double x = 8 + (value - 1) / 2 * (240 - 16);
+      const QColor track = picture.pixelColor(static_cast<int>(x), 12),
+                   beside = picture.pixelColor(static_cast<int>(x), 2);
+      return std::abs(track.lightness() - beside.lightness());
+    };
+    const int known = contrastAt(2.9);
+    QVERIFY(known > 10);
+    slider_->setTrusted(1.9, 2.2);
+    QCOMPARE(slider_->trustAt(2.1), 1.0);
+    QVERIFY(slider_->trustAt(2.25) < 1 && slider_->trustAt(2.25) > slider_->trustAt(2.3));
+    QCOMPARE(slider_->trustAt(2.9), 0.0);
+    QVERIFY(std::abs(contrastAt(2.15) - known) <= 2);
+    QVERIFY(contrastAt(2.9) < known / 2);
+    slider_->clearTrusted();
+    QCOMPARE(contrastAt(2.9), known);
+    QCOMPARE(slider_->trustAt(2.9), 1.0);
+  }
+
+  void anArrowShowsWhereItWouldGo() {
+    const QImage before = slider_->grab().toImage();
+    slider_->setPlannedStep(0.2);
+    const QImage planned = slider_->grab().toImage();
+    int left = 0, right = 0;
+    for (int x = 0; x < 240; ++x)
+      for (int y = 0; y < 24; ++y)
+        if (before.pixel(x, y) != planned.pixel(x, y)) ++(x < 120 ? left : right);
+    QVERIFY(right > 20);
+    QCOMPARE(left, 0);
+    slider_->setPlannedStep(0);
+    QVERIFY(slider_->grab().toImage() == before);
+  }
+
   void draggingEndsAtTheBounds() {
     QSignalSpy committed(slider_.get(), &ParameterSlider::committed);
     QTest::mousePress(slider_.get(), Qt::LeftButton, {}, slider_->handlePosition());

@@ -1,6 +1,8 @@
 #include <QAction>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QSlider>
+#include <QSpinBox>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
@@ -11,6 +13,7 @@
 #include "ui/panels/design_panel.hpp"
 #include "ui/panels/message_bar.hpp"
 #include "ui/plots/line_plot.hpp"
+#include "ui/render/motion_pair.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/viewport/viewport.hpp"
 
@@ -21,6 +24,8 @@ using shell::MainWindow;
 namespace {
 
 constexpr int patience = 300'000;  // milliseconds
+
+QString number(double value) { return QString::number(value, 'g', 4); }
 
 }  // namespace
 
@@ -59,6 +64,7 @@ class TestDesignWindow : public QObject {
     const Json dragged = mass();
     QVERIFY(dragged != first);
 
+    QSignalSpy progress(&panel, &panels::DesignPanel::progressMade);
     panel.runButton()->click();
     QTRY_VERIFY_WITH_TIMEOUT(window_->document().study("design")->status == document::StudyStatus::solved, patience);
     const auto result =
@@ -68,11 +74,38 @@ class TestDesignWindow : public QObject {
     QCOMPARE(panel.shownDesign(), last);
     QCOMPARE(panel.plot()->chart().lines.at(0).x.size(), result->design.history.size());
     QCOMPARE(panel.table()->rowCount(), static_cast<int>(result->parameters.size()));
+    // Every better design was seen as it came, as a ghost over the first, and the best one stays there.
+    QVERIFY(progress.count() > 1);
+    for (int i = 1; i < progress.count(); ++i) {
+      const auto first = progress.at(i).at(0).value<panels::DesignMotion>();
+      QVERIFY(first.problem == progress.at(0).at(0).value<panels::DesignMotion>().problem);
+      QVERIFY(first.z == result->before().z);
+    }
+    QVERIFY(progress.last().at(1).value<panels::DesignMotion>().z == result->after().z);
+    viewport::Viewport& viewport = window_->viewport();
+    QVERIFY(viewport.motionView().showsGhost());
     panel.slider()->setValue(0);
     QCOMPARE(panel.shownDesign(), 0);
+    QVERIFY(!viewport.motionView().showsGhost());
     QVERIFY(panel.summary().contains(QStringLiteral("×1.00")));
     panel.slider()->setValue(last);
     QVERIFY(!panel.summary().contains(QStringLiteral("×1.00")));
+
+    // Any two, side by side and in step.
+    QVERIFY(!viewport.pair());
+    panel.compareButton()->click();
+    QVERIFY(viewport.pair() && viewport.isPlaying());
+    QCOMPARE(panel.comparedDesign()->value(), 0);
+    QVERIFY(QString::fromStdString(viewport.motionView().caption()).contains(number(result->before().objective)));
+    QVERIFY(QString::fromStdString(viewport.pair()->right().caption()).contains(number(result->after().objective)));
+    const double tau = viewport.tau();
+    QTRY_VERIFY(viewport.tau() != tau);
+    QCOMPARE(viewport.pair()->right().tau(), viewport.tau());
+    panel.comparedDesign()->setValue(1);
+    QVERIFY(
+        QString::fromStdString(viewport.motionView().caption()).contains(number(result->design.history[1].objective)));
+    panel.compareButton()->click();
+    QVERIFY(!viewport.pair());
 
     const int step = window_->document().undoStack().index();
     panel.take()->click();
