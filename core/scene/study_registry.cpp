@@ -2,6 +2,7 @@
 #include "core/scene/bending_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
 #include "core/scene/design_studies.hpp"
+#include "core/scene/element_design_study.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
@@ -68,6 +69,7 @@ StudyRegistry::StudyRegistry()
                  {"free_travel", makeFreeTravelStudy},
                  {"stretch_grid", makeStretchGridStudy},
                  {"stretch_boundary", makeStretchBoundaryStudy},
+                 {"element_design", makeElementDesignStudy},
                  {"bending_test", makeBendingTestStudy},
                  {"curvature_limits", makeCurvatureLimitsStudy},
                  {"bending_size", makeBendingSizeStudy},
@@ -118,6 +120,8 @@ std::string hashScene(const Scene& scene) {
   for (const Json& body : scene.normalized()["bodies"]) addFile(body, "file");
   for (const Json& study : scene.normalized()["studies"]) {
     addFile(study, "candidate");
+    addFile(study, "polar_file");
+    if (study.contains("strain_region")) addFile(study["strain_region"], "file");
     for (const Json& objective : study.value("objectives", Json::array()))
       for (const Json& path : objective.value("paths", Json::array())) addFile(path, "file");
   }
