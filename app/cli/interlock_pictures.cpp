@@ -13,6 +13,7 @@
 #include "core/scene/bending_chart.hpp"
 #include "core/scene/bending_reading.hpp"
 #include "core/scene/boundary_surface.hpp"
+#include "core/scene/element_design_chart.hpp"
 #include "core/scene/interlock_reading.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/macro_reading.hpp"
@@ -181,7 +182,12 @@ void addPlots(const scene::Scene& scene, const InterlockFolder& found, Interlock
     plots.polar.push_back(scene::freeTravelCurves(*scene::readFreeTravel(scene, found.folder)));
   else if (type == "curvature_limits")
     plots.polar.push_back(scene::curvatureLimitCurves(*scene::readCurvatureLimits(scene, found.folder)));
-  else if (type == "bending_size")
+  else if (type == "element_design") {
+    const scene::DesignedLimits design = scene::readDesignedLimits(found.folder);
+    const scene::PolarCurves curves = scene::elementDesignCurves(design);
+    if (!curves.curves.empty()) plots.polar.push_back(curves);
+    plots.charts.push_back(scene::elementDesignChart(design));
+  } else if (type == "bending_size")
     plots.charts.push_back(scene::bendingSizeChart(*scene::readBendingSize(scene, found.folder)));
 }
 

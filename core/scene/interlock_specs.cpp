@@ -1,6 +1,7 @@
 #include "core/scene/interlock_specs.hpp"
 
 #include "core/scene/composed_cell_specs.hpp"
+#include "core/scene/element_design_specs.hpp"
 #include "core/scene/spec_builder.hpp"
 
 namespace pliant::scene {
@@ -168,6 +169,9 @@ std::vector<ParameterSpec> interlockStudySpecs() {
       "A file, relative to the scene, that keeps every limit as soon as it is found: a run that was stopped goes on "
       "from it.");
   checkpoint.kind = base::ValueKind::path;
+  std::vector<ParameterSpec> designKeys = elementDesignKeys();
+  for (ParameterSpec& key : std::vector<ParameterSpec>{lateralKey(), ratioKey(), trialsKey()})
+    designKeys.push_back(std::move(key));
   return {
       studyOf("cell_test", "How far a material can be stretched or compressed in one direction (thesis 4.3.2).",
               {withDefault(choice("load", "What is done to it.", {"stretch", "compress"}), "stretch"),
@@ -205,7 +209,10 @@ std::vector<ParameterSpec> interlockStudySpecs() {
                                "Whether limits that symmetries of the cell make the same are computed once; some are "
                                "computed all the same, to check it."),
                        true),
-           optional(checkpoint)})};
+           optional(checkpoint)}),
+      studyOf("element_design",
+              "Looks for numbers of a material whose limits are those wanted, or as near to them as can be.",
+              std::move(designKeys))};
 }
 
 }  // namespace pliant::scene

@@ -3,6 +3,7 @@
 #include "core/scene/calibration_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
 #include "core/scene/design_studies.hpp"
+#include "core/scene/element_design_study.hpp"
 #include "core/scene/harmonic_studies.hpp"
 #include "core/scene/interlock_studies.hpp"
 #include "core/scene/json_text.hpp"
@@ -70,6 +71,7 @@ StudyRegistry::StudyRegistry()
                  {"free_travel", makeFreeTravelStudy},
                  {"stretch_grid", makeStretchGridStudy},
                  {"stretch_boundary", makeStretchBoundaryStudy},
+                 {"element_design", makeElementDesignStudy},
                  {"bending_test", makeBendingTestStudy},
                  {"curvature_limits", makeCurvatureLimitsStudy},
                  {"bending_size", makeBendingSizeStudy},
@@ -121,6 +123,8 @@ std::string hashScene(const Scene& scene) {
   for (const Json& study : scene.normalized()["studies"]) {
     addFile(study, "candidate");
     for (const Json& measurement : study.value("measurements", Json::array())) addFile(measurement, "file");
+    addFile(study, "polar_file");
+    if (study.contains("strain_region")) addFile(study["strain_region"], "file");
     for (const Json& objective : study.value("objectives", Json::array()))
       for (const Json& path : objective.value("paths", Json::array())) addFile(path, "file");
   }
