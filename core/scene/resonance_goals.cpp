@@ -19,7 +19,7 @@ ParameterSpec goalFrequency(std::string key, std::string symbol, std::string des
 }  // namespace
 
 std::vector<ParameterSpec> resonanceGoalSpecs(const ParameterSpec& weight) {
-  ParameterSpec probe = reference("probe", "Whose path length peaks; not with \"linear\".", "probes");
+  ParameterSpec probe = reference("probe", "Whose path length peaks; does not count with \"linear\".", "probes");
   return {
       object("resonance_placement",
              "Puts a resonance at a frequency: ((ω* - ω) / ω)², ω* being that of the nearest peak of the response "
@@ -54,8 +54,6 @@ std::shared_ptr<const harmonic::DesignObjective> resonanceGoal(const Json& entry
     if (entry.contains("mode")) goal.mode = entry["mode"].get<int>() - 1;
     return harmonic::makeLinearResonancePlacement(goal);
   }
-  if (!entry.contains("probe"))
-    throw base::InputError(place, "A peak is that of a probe's path length: name the \"probe\", or set \"linear\".");
   const auto probe = std::find_if(model.probes.begin(), model.probes.end(), [&](const mechanics::Probe& p) {
     return p.name == entry["probe"].get_ref<const std::string&>();
   });
