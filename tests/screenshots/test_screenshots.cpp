@@ -185,6 +185,8 @@ void TestScreenshots::theWholeWindow() {
   QVERIFY(window);
   dragFirstMass(*window, 24);
   QVERIFY(window->session().prediction().has_value());
+  const std::string mass = window->document().model()->parameters.front()->pointer();
+  QTRY_VERIFY(window->parameters().trust().range(mass).has_value());  // its track fades
   const QString problem = compareWithBaseline(grab(*window), "window", allowed, Sharpness::smooth);
   QVERIFY2(problem.isEmpty(), qPrintable(problem));
   if (qEnvironmentVariableIntValue("PLIANT_RECORD_SCREENSHOTS")) return;

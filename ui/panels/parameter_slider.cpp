@@ -13,7 +13,7 @@ namespace pliant::panels {
 namespace {
 constexpr double handleRadius = 7;
 constexpr double faintest = 0.4;  // of a track where nothing can be trusted
-constexpr int steps = 10000;       ///< of the integer range that assistive technology sees
+constexpr int steps = 10000;      ///< of the integer range that assistive technology sees
 }  // namespace
 
 ParameterSlider::ParameterSlider(QWidget* parent) : QAbstractSlider(parent) {

@@ -33,6 +33,8 @@ JobStatus::JobStatus(QWidget* parent) : QWidget(parent) {
   row->addWidget(text_);
   row->addWidget(bar_);
   row->addWidget(cancel_);
+  // As high with a job as without, or the whole window would be laid out anew when the first one begins.
+  setMinimumHeight(std::max(bar_->sizeHint().height(), cancel_->sizeHint().height()));
   bar_->hide();
   cancel_->hide();
   connect(cancel_, &QToolButton::clicked, this, &JobStatus::cancelRequested);
