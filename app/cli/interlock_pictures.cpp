@@ -92,6 +92,14 @@ std::optional<ExitStatus> exportBoundary(const MotionOptions& options) {
   return done;
 }
 
+std::shared_ptr<const scene::MacroResult> findSheetMotion(const MotionOptions& options) {
+  const auto scene = scene::Scene::load(options.scene);
+  const auto found = findInterlock(scene, options);
+  if (!found || found->type() != "macro_motion") return nullptr;
+  warnOfChange(scene, *found);
+  return scene::readMacro(scene, found->folder);
+}
+
 #ifdef PLIANT_HAS_RENDERER
 
 namespace {
