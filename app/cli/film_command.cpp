@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "app/cli/interlock_pictures.hpp"
 #include "app/cli/moment.hpp"
 #include "app/cli/progress_display.hpp"
 #include "core/base/error.hpp"
@@ -34,9 +35,10 @@ ExitStatus exportFilm(const MotionOptions& options, const FilmSettings& settings
     throw InputError("--time", "A video and numbered pictures show all of a motion; `render` draws one moment.");
   if (options.result.empty())
     throw InputError("--result", "A video and numbered pictures need the folder that `run` wrote.");
-  const Moment moment = findMoment(options);
-  film.picture.caption = moment.caption;
-  if (moment.model->dimension < 3) film.picture.view = render::AxisView::top;  // as in the window
+  const auto sheet = findSheetMotion(options);
+  const Moment moment = sheet ? Moment() : findMoment(options);
+  film.picture.caption = sheet ? sheet->provenance.study : moment.caption;
+  if (!sheet && moment.model->dimension < 3) film.picture.view = render::AxisView::top;  // as in the window
 
   ProgressDisplay display;
   base::ExecutionContext context([&](double fraction, const std::string&) { display.show(fraction, options.out); });
@@ -44,8 +46,9 @@ ExitStatus exportFilm(const MotionOptions& options, const FilmSettings& settings
   const auto clock = moment.cloth && moment.cloth->studyType() != "cloth_motion" ? render::FrameClock::steps
                                                                                  : render::FrameClock::seconds;
   const std::optional<render::Film> made =
-      moment.cloth ? render::filmCloth(moment.cloth->problem, moment.cloth->frames, clock, film, options.out, context)
-                   : render::filmMotion(moment.problem, moment.z, moment.period, film, options.out, context);
+      sheet          ? render::filmMacro(sheet, film, options.out, context)
+      : moment.cloth ? render::filmCloth(moment.cloth->problem, moment.cloth->frames, clock, film, options.out, context)
+                     : render::filmMotion(moment.problem, moment.z, moment.period, film, options.out, context);
   display.clear();
   if (!made) return cancelled;
   std::cout << options.out << ": " << made->pictures << " pictures of " << film.picture.width << " x "

@@ -93,6 +93,14 @@ std::optional<ExitStatus> exportBoundary(const MotionOptions& options) {
   return done;
 }
 
+std::shared_ptr<const scene::MacroResult> findSheetMotion(const MotionOptions& options) {
+  const auto scene = scene::Scene::load(options.scene);
+  const auto found = findInterlock(scene, options);
+  if (!found || found->type() != "macro_motion") return nullptr;
+  warnOfChange(scene, *found);
+  return scene::readMacro(scene, found->folder);
+}
+
 #ifdef PLIANT_HAS_RENDERER
 
 namespace {
@@ -163,10 +171,16 @@ render::Image patchImage(const AnyResult& result, render::PictureOptions picture
   return render::drawPatch(configuration, picture);
 }
 
-render::Image macroImage(const scene::Scene& scene, const InterlockFolder& found, render::PictureOptions picture) {
+render::Image macroImage(const scene::Scene& scene, const InterlockFolder& found, const MotionOptions& options,
+                         const BoundaryLook& look, render::PictureOptions picture) {
   const auto result = scene::readMacro(scene, found.folder);
+  std::optional<double> time;
+  if (!options.time.empty()) {
+    if (!result->isMotion()) throw InputError("--time", "A sheet at rest has no time.");
+    time = base::parseQuantity(options.time, base::dimensions::time);
+  }
   picture.caption += '\n' + render::macroCaption(*result);
-  return render::drawMacro(result, picture);
+  return render::drawMacro(result, picture, time, result->placed && look.quantity.empty());
 }
 
 /// What of a result is drawn over directions or sizes; neither of most.
@@ -212,7 +226,8 @@ std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const Bo
   const auto scene = scene::Scene::load(options.scene);
   const auto found = findInterlock(scene, options);
   if (!found) return std::nullopt;
-  if (!options.time.empty()) throw InputError("--time", "A limit has no time.");
+  const bool isSheet = found->type() == "macro_equilibrium" || found->type() == "macro_motion";
+  if (!options.time.empty() && !isSheet) throw InputError("--time", "A limit has no time.");
   warnOfChange(scene, *found);
   picture.caption = scene.normalized()["title"];
   const std::string type = found->type();
@@ -230,8 +245,8 @@ std::optional<ExitStatus> renderInterlock(const MotionOptions& options, const Bo
     render::writePng(patchImage(*scene::readBendingTest(scene, found->folder), picture), options.out);
   else if (type == "gravity_bending")
     render::writePng(patchImage(*scene::readGravityBending(scene, found->folder), picture), options.out);
-  else if (type == "macro_equilibrium")
-    render::writePng(macroImage(scene, *found, picture), options.out);
+  else if (isSheet)
+    render::writePng(macroImage(scene, *found, options, look, picture), options.out);
   else
     throw InputError(found->folder.string(), "There is no picture of a result of the type " + scene::quote(type) + ".");
   std::cout << options.out << ": " << picture.width << " x " << picture.height << " pixels\n";

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/interlock/contact_terms.hpp"
+#include "core/interlock/element_pose.hpp"
 
 namespace pliant::interlock {
 
@@ -135,29 +136,16 @@ std::vector<CellContact::ImagePair> CellContact::nearElements(const CellState& s
 
 std::vector<PartPair> CellContact::nearParts(const CellState& state, double reach) const {
   std::vector<PartPair> pairs;
-  std::vector<std::array<int, 2>> stack;
+  std::vector<std::array<int, 2>> near;
   std::vector<Matrix3Xd> centres(cell_.elements.size());  // of all balls, turned
   for (std::size_t i = 0; i < centres.size(); ++i)
     centres[i] = state.rotations[i] * partsOf(static_cast<int>(i)).centres();
   for (const auto& [a, b, shift] : nearElements(state, reach)) {
     const ElementParts &first = partsOf(a), &second = partsOf(b);
     const Vector3d offset = offsetOf(state, a, b, shift);
-    stack.assign(1, {0, 0});
-    while (!stack.empty()) {
-      const auto [i, j] = stack.back();
-      stack.pop_back();
-      const ElementParts::Node &nodeA = first.nodes()[i], &nodeB = second.nodes()[j];
-      const double touching = nodeA.ball.radius + nodeB.ball.radius + reach;
-      if ((centres[a].col(i) + offset - centres[b].col(j)).squaredNorm() >= touching * touching) continue;
-      if (nodeA.part >= 0 && nodeB.part >= 0) {
-        if (countsAsContact(first.parts()[nodeA.part], second.parts()[nodeB.part]))
-          pairs.push_back({a, b, shift, nodeA.part, nodeB.part});
-      } else if (nodeB.part >= 0 || (nodeA.part < 0 && nodeA.ball.radius > nodeB.ball.radius)) {
-        for (const int child : nodeA.children) stack.push_back({child, j});
-      } else {
-        for (const int child : nodeB.children) stack.push_back({i, child});
-      }
-    }
+    near.clear();
+    appendNearParts(first, centres[a], second, centres[b], offset, reach, near);
+    for (const auto& [partA, partB] : near) pairs.push_back({a, b, shift, partA, partB});
   }
   return pairs;
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/geometry/outline_mesh.hpp"
 
 namespace pliant::interlock {
 
@@ -18,19 +19,13 @@ using Eigen::Vector2d;
 
 constexpr double mostExportedElements = 1e6;
 
-/// By crossings of the ray along x.
-bool isInside(const Matrix2Xd& polygon, const Vector2d& place) {
-  bool inside = false;
-  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
-    const Vector2d from = polygon.col(i), to = polygon.col((i + 1) % polygon.cols());
-    if ((from[1] > place[1]) == (to[1] > place[1])) continue;
-    if (from[0] + (place[1] - from[1]) / (to[1] - from[1]) * (to[0] - from[0]) > place[0]) inside = !inside;
-  }
-  return inside;
+void refuseSize(double count) {
+  if (!(count <= mostExportedElements)) throw base::InputError("", "the patch would have more than a million elements");
 }
 
-/// The largest group of linked elements; of several the first.
-FabricPatch largestGroup(const UnitCell& cell, std::vector<PatchElement> elements) {
+}  // namespace
+
+FabricPatch linkedPatch(const UnitCell& cell, std::vector<PatchElement> elements) {
   std::sort(elements.begin(), elements.end());
   std::map<PatchElement, int> index;
   for (const PatchElement& element : elements) index.emplace(element, static_cast<int>(index.size()));
@@ -57,12 +52,6 @@ FabricPatch largestGroup(const UnitCell& cell, std::vector<PatchElement> element
   return patch;
 }
 
-void refuseSize(double count) {
-  if (!(count <= mostExportedElements)) throw base::InputError("", "the patch would have more than a million elements");
-}
-
-}  // namespace
-
 FabricPatch patchOfCells(const UnitCell& cell, int first, int second) {
   if (first < 1 || second < 1)
     throw base::InputError("", "a patch needs at least one cell in each direction, but is " + std::to_string(first) +
@@ -72,17 +61,13 @@ FabricPatch patchOfCells(const UnitCell& cell, int first, int second) {
   for (int i = 0; i < first; ++i)
     for (int j = 0; j < second; ++j)
       for (std::size_t k = 0; k < cell.elements.size(); ++k) elements.push_back({static_cast<int>(k), {i, j}});
-  return largestGroup(cell, std::move(elements));
+  return linkedPatch(cell, std::move(elements));
 }
 
 FabricPatch patchInside(const UnitCell& cell, const CellState& state, const Matrix2Xd& polygon) {
   if (polygon.cols() < 3) throw base::InputError("", "an outline needs at least three corners");
   if (!polygon.allFinite()) throw base::InputError("", "a corner of the outline is not finite");
-  double area = 0;
-  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
-    const Vector2d from = polygon.col(i), to = polygon.col((i + 1) % polygon.cols());
-    area += 0.5 * (from[0] * to[1] - from[1] * to[0]);
-  }
+  const double area = geometry::polygonArea(polygon);
   const Vector2d low = polygon.rowwise().minCoeff(), high = polygon.rowwise().maxCoeff(), middle = 0.5 * (low + high);
   if (!(std::abs(area) > 1e-9 * (high - low).squaredNorm())) throw base::InputError("", "the outline encloses no area");
   const Eigen::Matrix2d lattice = stretchOf(state.strain) * cell.lattice, inverse = lattice.inverse();
@@ -94,11 +79,11 @@ FabricPatch patchInside(const UnitCell& cell, const CellState& state, const Matr
     const Vector2d centre = inverse * -own, extent = inverse.cwiseAbs() * (0.5 * (high - low));
     for (int i = static_cast<int>(std::ceil(centre[0] - extent[0])); i <= centre[0] + extent[0]; ++i)
       for (int j = static_cast<int>(std::ceil(centre[1] - extent[1])); j <= centre[1] + extent[1]; ++j)
-        if (isInside(polygon, middle + own + lattice * Vector2d(i, j)))
+        if (geometry::isInPolygon(polygon, middle + own + lattice * Vector2d(i, j)))
           elements.push_back({static_cast<int>(k), {i, j}});
   }
   if (elements.empty()) throw base::InputError("", "no element is inside of the outline");
-  return largestGroup(cell, std::move(elements));
+  return linkedPatch(cell, std::move(elements));
 }
 
 Matrix2Xd rectangleOutline(double width, double height) {

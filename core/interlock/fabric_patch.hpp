@@ -30,6 +30,9 @@ FabricPatch patchOfCells(const UnitCell& cell, int first, int second);
 /// is not finite, or no area, or if no element is inside, or more than a million.
 FabricPatch patchInside(const UnitCell& cell, const CellState& state, const Eigen::Matrix2Xd& polygon);
 
+/// Of these elements the largest group that links hold together; of several the first.
+FabricPatch linkedPatch(const UnitCell& cell, std::vector<PatchElement> elements);
+
 /// A rectangle of these sides and a circle, as a polygon of 256 corners, around the origin [m].
 Eigen::Matrix2Xd rectangleOutline(double width, double height);
 Eigen::Matrix2Xd circleOutline(double diameter);

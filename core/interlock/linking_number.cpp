@@ -105,23 +105,26 @@ std::optional<int> linkingNumber(const Matrix3Xd& first, const Matrix3Xd& second
   return std::nullopt;
 }
 
-LinkFinder::LinkFinder(const CellContact& contact) : contact_(contact) {
-  for (const ElementShape& shape : contact.cell().shapes) {
-    std::vector<Loop>& loops = loops_.emplace_back();
-    for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
-      const auto& [core, radius] = shape.pieces[i];
-      std::vector<Cycle> cycles;
-      if (const auto* curve = std::get_if<ClosedCurve>(&core))
-        cycles = {{polygonInWire(*curve, radius)}};
-      else if (isClosedMesh(shape.pieces[i]))
-        cycles = handleCycles({std::get<SimplexSet>(core).corners, std::get<SimplexSet>(core).triangles, {}, {}});
-      else if (std::get<SimplexSet>(core).closed)
-        cycles = {loopsOf(std::get<SimplexSet>(core))};
-      for (std::size_t handle = 0; handle < cycles.size(); ++handle)
-        for (const Matrix3Xd& polygon : cycles[handle])
-          loops.push_back({static_cast<int>(i), static_cast<int>(handle), polygon, ballAround(polygon)});
-    }
+std::vector<ElementLoop> loopsOfShape(const ElementShape& shape) {
+  std::vector<ElementLoop> loops;
+  for (std::size_t i = 0; i < shape.pieces.size(); ++i) {
+    const auto& [core, radius] = shape.pieces[i];
+    std::vector<Cycle> cycles;
+    if (const auto* curve = std::get_if<ClosedCurve>(&core))
+      cycles = {{polygonInWire(*curve, radius)}};
+    else if (isClosedMesh(shape.pieces[i]))
+      cycles = handleCycles({std::get<SimplexSet>(core).corners, std::get<SimplexSet>(core).triangles, {}, {}});
+    else if (std::get<SimplexSet>(core).closed)
+      cycles = {loopsOf(std::get<SimplexSet>(core))};
+    for (std::size_t handle = 0; handle < cycles.size(); ++handle)
+      for (const Matrix3Xd& polygon : cycles[handle])
+        loops.push_back({static_cast<int>(i), static_cast<int>(handle), polygon, ballAround(polygon)});
   }
+  return loops;
+}
+
+LinkFinder::LinkFinder(const CellContact& contact) : contact_(contact) {
+  for (const ElementShape& shape : contact.cell().shapes) loops_.push_back(loopsOfShape(shape));
 }
 
 std::optional<std::vector<Link>> LinkFinder::linksAt(const CellState& state) const {
@@ -129,8 +132,8 @@ std::optional<std::vector<Link>> LinkFinder::linksAt(const CellState& state) con
   const auto& elements = contact_.cell().elements;
   for (const auto& [a, b, shift] : contact_.nearElements(state, 0)) {
     const Vector3d offset = contact_.offsetOf(state, a, b, shift);
-    for (const Loop& loopA : loops_[elements[a].shape])
-      for (const Loop& loopB : loops_[elements[b].shape]) {
+    for (const ElementLoop& loopA : loops_[elements[a].shape])
+      for (const ElementLoop& loopB : loops_[elements[b].shape]) {
         const Vector3d between =
             state.rotations[a] * loopA.ball.centre + offset - state.rotations[b] * loopB.ball.centre;
         if (between.norm() > loopA.ball.radius + loopB.ball.radius) continue;

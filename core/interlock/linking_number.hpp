@@ -12,6 +12,15 @@ namespace pliant::interlock {
 /// another projection if rounding could decide; nothing if they differ, which means that the polygons meet.
 std::optional<int> linkingNumber(const Eigen::Matrix3Xd& first, const Eigen::Matrix3Xd& second);
 
+/// A closed polygon that goes round with a piece of a shape, in the shape's coordinates: of a wire one that stays
+/// inside it, of a closed mesh a handle of handleCycles.
+struct ElementLoop {
+  int piece, handle;
+  Eigen::Matrix3Xd corners;
+  Ball ball;
+};
+std::vector<ElementLoop> loopsOfShape(const ElementShape& shape);
+
 /// Finds which closed pieces of a cell are linked. A curve is replaced by a polygon that stays inside its wire, so as
 /// long as elements do not overlap the numbers are exact; the handles of a closed mesh are those of handleCycles.
 class LinkFinder {
@@ -23,13 +32,8 @@ class LinkFinder {
   std::optional<std::vector<Link>> linksAt(const CellState& state) const;
 
  private:
-  struct Loop {
-    int piece, handle;
-    Eigen::Matrix3Xd corners;
-    Ball ball;
-  };
   const CellContact& contact_;
-  std::vector<std::vector<Loop>> loops_;  ///< by shape
+  std::vector<std::vector<ElementLoop>> loops_;  ///< by shape
 };
 
 }  // namespace pliant::interlock

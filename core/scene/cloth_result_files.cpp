@@ -1,9 +1,9 @@
 #include <cmath>
-#include <cstdio>
 
 #include "core/scene/cloth_builder.hpp"
 #include "core/scene/cloth_result.hpp"
 #include "core/scene/csv.hpp"
+#include "core/scene/frame_ply.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
@@ -14,12 +14,6 @@ namespace pliant::scene {
 using base::InputError;
 
 namespace {
-
-std::string frameFile(std::size_t index) {
-  char name[48];
-  std::snprintf(name, sizeof name, "frames/frame_%05zu.ply", index);
-  return name;
-}
 
 void addFinite(CsvWriter& csv, double value) { std::isfinite(value) ? csv.add(value) : csv.add(""); }
 
@@ -124,7 +118,7 @@ void ClothResult::write(const std::filesystem::path& directory) const {
   CsvWriter list;
   list.add("frame").add("time [s]").endRow();
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    folder.writeFile(frameFile(i), frameToPly(*frames[i], problem->sheet));
+    folder.writeFile(frameFileName(i), frameToPly(*frames[i], problem->sheet));
     list.add(static_cast<long>(i)).add(frames[i]->time).endRow();
   }
   folder.writeFile("frames.csv", list.text());
@@ -156,7 +150,7 @@ std::shared_ptr<ClothResult> ClothResult::read(const Scene& scene, const std::fi
     for (const auto& row : readCsv(text)) times.push_back(csvNumber(row.back()));
   });
   for (std::size_t i = 0; i < times.size(); ++i)
-    inFile(frameFile(i), [&](const std::string& text) {
+    inFile(frameFileName(i), [&](const std::string& text) {
       ClothFrame frame = frameFromPly(text, result->problem->sheet);
       frame.time = times[i];
       const double bodiesAt =

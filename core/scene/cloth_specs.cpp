@@ -42,7 +42,19 @@ ParameterSpec stretchLimit(std::string type, std::string description, std::vecto
   return object(std::move(type), std::move(description), std::move(keys));
 }
 
-ParameterSpec motion(std::string description) {
+ParameterSpec file(std::string key, std::string description) {
+  ParameterSpec path = text(std::move(key), std::move(description));
+  path.kind = base::ValueKind::path;
+  return path;
+}
+
+ParameterSpec scale(std::string description) {
+  return withDefault(positive(number("scale", "", std::move(description), dimensions::none)), 1);
+}
+
+}  // namespace
+
+ParameterSpec motionSpec(std::string description) {
   return withDefault(
       list(
           "path", std::move(description),
@@ -58,18 +70,6 @@ ParameterSpec motion(std::string description) {
           0, 10'000),
       Json::array());
 }
-
-ParameterSpec file(std::string key, std::string description) {
-  ParameterSpec path = text(std::move(key), std::move(description));
-  path.kind = base::ValueKind::path;
-  return path;
-}
-
-ParameterSpec scale(std::string description) {
-  return withDefault(positive(number("scale", "", std::move(description), dimensions::none)), 1);
-}
-
-}  // namespace
 
 ParameterSpec seamSpecs() {
   return object(
@@ -112,7 +112,7 @@ ParameterSpec stretchLimitSpecs() {
 }
 
 ParameterSpec bodySpecs() {
-  const ParameterSpec path = motion("How it moves.");
+  const ParameterSpec path = motionSpec("How it moves.");
   const ParameterSpec radius = positive(number("radius", "", "Radius.", dimensions::length));
   return variant(
       "body", "What cloth and sheets of interlocking materials lie on or are moved by, in studies of these.",
@@ -149,7 +149,7 @@ ParameterSpec contactSpec() {
 ParameterSpec pinSpec() {
   return object(
       "pin", "All coordinates of nodes follow a path in studies of cloth; other studies hold them where they rest.",
-      {name(), selection("at", "Nodes."), motion("How they move, turning about their mean position."),
+      {name(), selection("at", "Nodes."), motionSpec("How they move, turning about their mean position."),
        optional(notNegative(number("release", "", "When they are let go; never if left out.", dimensions::time)))});
 }
 

@@ -6,6 +6,8 @@
 
 namespace pliant::scene {
 
+/// "path": keyframes.
+base::ParameterSpec motionSpec(std::string description);
 /// Entries of "seams".
 base::ParameterSpec seamSpecs();
 /// Entries of "stretch_limits".

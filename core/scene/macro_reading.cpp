@@ -1,15 +1,18 @@
 #include "core/scene/macro_reading.hpp"
 
+#include "core/scene/body_builder.hpp"
 #include "core/scene/csv_table.hpp"
 #include "core/scene/interlock_head.hpp"
+#include "core/scene/json_text.hpp"
 
 namespace pliant::scene {
 
 using Eigen::Index;
 
 std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem::path& directory) {
+  const std::string type = parseJson(readTextFile(directory / "summary.json")).value("type", "");
   return readInterlockResult<MacroResult>(directory, [&](MacroResult& result) {
-    const Json summary = readInterlockHead(scene, directory, "macro_equilibrium", result);
+    const Json summary = readInterlockHead(scene, directory, type, result);
     auto sheet = std::make_shared<interlock::MacroSheet>();
     interlock::MacroState& state = result.state;
     const CsvTable nodes(directory / "nodes.csv");
@@ -57,6 +60,9 @@ std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem
     result.deflections.resize(3, static_cast<Index>(deflections.size()));
     for (std::size_t i = 0; i < deflections.size(); ++i)
       for (int k = 0; k < 3; ++k) result.deflections(k, static_cast<Index>(i)) = deflections[i][k];
+    result.bodies = buildBodies(scene);
+    if (result.isMotion()) readMacroMotion(directory, result);
+    if (!summary.at("elements").is_null()) result.placed = readPlaced(directory, summary.at("elements"));
     const Json& native = summary.at("native");
     if (native.is_null()) return;
     result.native.emplace();

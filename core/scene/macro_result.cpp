@@ -1,5 +1,7 @@
 #include "core/scene/macro_result.hpp"
 
+#include <cmath>
+
 #include "core/interlock/cell_surface.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/json_text.hpp"
@@ -17,7 +19,7 @@ Json columnsOf(const Eigen::Matrix3Xd& vectors) {
 }
 
 Json setSummary(const std::shared_ptr<const mechanics::AdmissibleStrainSet>& set, const Eigen::VectorXd& gauges) {
-  if (!set) return nullptr;
+  if (!set || gauges.size() == 0) return nullptr;
   return {{"largest_gauge", gauges.maxCoeff()},
           {"triangles_near_limit", (gauges.array() > 0.99).count()},
           {"limits", set->boundary().points.cols()},
@@ -39,9 +41,21 @@ Json MacroResult::summary() const {
   json["work"] = state.work;
   json["remaining"] = state.remaining;
   json["violation"] = state.violation;
-  const interlock::MacroMaterial& material = sheet->materials.front();
-  json["stretch"] = setSummary(material.stretch, state.stretchGauge);
-  json["bending"] = setSummary(material.bending, state.bendingGauge);
+  json["stretch"] = setSummary(sheet->materials.front().stretch, gaugesOf(0, state.stretchGauge));
+  json["bending"] = setSummary(sheet->materials.front().bending, gaugesOf(0, state.bendingGauge));
+  json["regions"] = Json::array();
+  for (std::size_t i = 1; i < sheet->materials.size(); ++i) {
+    const int number = static_cast<int>(i);
+    json["regions"].push_back(
+        {{"triangles", gaugesOf(number, state.stretchGauge).size()},
+         {"stretch", setSummary(sheet->materials[i].stretch, gaugesOf(number, state.stretchGauge))},
+         {"bending", setSummary(sheet->materials[i].bending, gaugesOf(number, state.bendingGauge))}});
+  }
+  json["contact"] = nullptr;
+  if (std::isfinite(state.smallestGap))
+    json["contact"] = {{"smallest_gap", state.smallestGap}, {"supported", state.supported}};
+  if (isMotion()) addMotion(json);
+  json["elements"] = placed ? placedSummary(*placed) : Json(nullptr);
   json["deflections"] = columnsOf(deflections);
   json["largest_displacement"] =
       (state.positions.reshaped(3, sheet->mesh.points.cols()) - sheet->mesh.points).colwise().norm().maxCoeff();
@@ -66,14 +80,53 @@ Json MacroResult::summary() const {
                    {"largest_gauge", "1 at the limit"},
                    {"gauge_error", "of the smooth gauge between limits, against flat triangles"},
                    {"mean_distance", "m, between elements and the sheet"},
+                   {"smallest_gap", "m, between the sheet and bodies and itself"},
+                   {"supported", "N, of the bodies against gravity"},
+                   {"largest_grip_lag", "m, of nodes behind their grips"},
+                   {"energy", "J, of all, at the end"},
                    {"seconds", "s"}};
   addRunInformation(json, *this);
   return json;
 }
 
+bool MacroResult::isMotion() const { return provenance.options.value("type", "") == "macro_motion"; }
+
+Eigen::VectorXd MacroResult::gaugesOf(int material, const Eigen::VectorXd& gauges) const {
+  if (sheet->materialOf.empty()) return gauges;
+  std::vector<int> own;
+  for (std::size_t t = 0; t < sheet->materialOf.size(); ++t)
+    if (sheet->materialOf[t] == material) own.push_back(static_cast<int>(t));
+  return gauges(own);
+}
+
+void MacroResult::addMotion(Json& json) const {
+  double smallestGap = std::numeric_limits<double>::infinity(), stretch = 0, bending = 0, lag = 0, residual = 0;
+  for (const MacroStepRecord& step : steps) {
+    smallestGap = std::min(smallestGap, step.smallestGap);
+    stretch = std::max(stretch, step.stretchGauge);
+    bending = std::max(bending, step.bendingGauge);
+    lag = std::max(lag, step.gripLag);
+    residual = std::max(residual, step.residual);
+  }
+  json["motion"] = {{"steps", steps.size()},
+                    {"frames", frames.size()},
+                    {"largest_stretch_gauge", stretch},
+                    {"largest_bending_gauge", bending},
+                    {"largest_grip_lag", lag},
+                    {"largest_residual", residual}};
+  json["motion"]["smallest_gap"] = std::isfinite(smallestGap) ? Json(smallestGap) : Json(nullptr);
+  json["motion"]["end_time"] = steps.empty() ? 0 : steps.back().time;
+  json["motion"]["energy"] = steps.empty() ? 0 : steps.back().energies.total();
+}
+
 std::vector<std::string> MacroResult::warnings() const {
   std::vector<std::string> list;
-  if (clamped.empty()) list.emplace_back("Nothing is clamped: only limits and inertia say where the sheet is.");
+  if (clamped.empty() && bodies.empty() && !isMotion())
+    list.emplace_back("Nothing is clamped: only limits and inertia say where the sheet is.");
+  if (placed && placed->detail.termination != base::TerminationType::converged)
+    list.push_back("Elements are not all where the sheet wants them: " + placed->detail.message);
+  if (placed && !placed->check.holds())
+    list.emplace_back("The placed elements do not hold: some may overlap, or are linked otherwise than at rest.");
   if (native && !native->rest.converged())
     list.push_back("The native patch did not come to rest: " + native->rest.message);
   return list;
@@ -123,6 +176,8 @@ void MacroResult::write(const std::filesystem::path& directory) const {
     folder.writeFile("elements.csv", elements.text());
     geometry::writeMesh(cellSurface(*native->patch, native->rest.state, 1, 1, 0.2), folder.path("patch.ply"));
   }
+  if (isMotion()) writeMotion(folder);
+  if (placed) writePlaced(folder);
   folder.writeFile("summary.json", formatJson(summary()));
   folder.commit();
 }

@@ -2,16 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/hexagon_mesh.hpp"
-#include "core/geometry/mesh_generators.hpp"
-#include "core/interlock/cell_surface.hpp"
 #include "core/interlock/patch_equilibrium.hpp"
 #include "core/scene/input_error_location.hpp"
-#include "core/scene/interlock_study.hpp"
-#include "core/scene/macro_result.hpp"
+#include "core/scene/macro_study.hpp"
 
 namespace pliant::scene {
 
@@ -21,48 +15,22 @@ using base::TerminationType;
 using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using mechanics::AdmissibleStrainSet;
 
-/// (mean, deviator, shear) of the components xx, yy, xy.
-Vector3d strainOfTensor(const Vector3d& tensor) {
-  return {0.5 * (tensor[0] + tensor[1]), 0.5 * (tensor[0] - tensor[1]), tensor[2]};
-}
+/// Of the shortest translation of the lattice: steps of the sheet's way that elements follow.
+constexpr double pathSpacing = 0.5;
 
-/// From a surface whose coordinates are components of tensors. It is seen from the middle of what it encloses.
-std::shared_ptr<const AdmissibleStrainSet> strainSetOf(geometry::SurfaceMesh boundary) {
-  for (Index i = 0; i < boundary.points.cols(); ++i) boundary.points.col(i) = strainOfTensor(boundary.points.col(i));
-  geometry::checkClosed(boundary);
-  if (geometry::enclosedVolume(boundary) < 0)
-    for (auto& triangle : boundary.triangles) std::swap(triangle[0], triangle[1]);
-  const Vector3d middle = geometry::enclosedCentroid(boundary);
-  return std::make_shared<const AdmissibleStrainSet>(std::move(boundary), middle);
-}
-
-Vector3d vectorOf(const Json& list) { return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()}; }
-Vector2d planeOf(const Json& list) { return {list[0].get<double>(), list[1].get<double>()}; }
-
-class MacroEquilibriumStudy final : public InterlockStudy {
+class MacroEquilibriumStudy final : public MacroStudy {
  public:
-  MacroEquilibriumStudy(const Scene& scene, const Json& options) : InterlockStudy(scene, options) {
-    const Json& studies = scene.normalized()["studies"];
-    std::size_t index = 0;
-    while (studies[index]["name"] != options["name"]) ++index;
-    place_ = scene.name() + ": /studies/" + std::to_string(index);
-  }
+  using MacroStudy::MacroStudy;
 
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
-    auto result = std::make_shared<MacroResult>();
+    checkNative();
+    if (options_["elements"] && !options_["regions"].empty())
+      throw base::InputError(place_ + "/elements", "Elements are placed in sheets of one material alone.");
     interlock::MacroSheet sheet;
-    sheet.mesh = locate(place_, [&] { return outline(); });
-    sheet.angleOf.assign(sheet.mesh.triangles.size(), options_["angle"]);
-    if (options_["native"] && (options_["shape"] == "mesh" || options_["angle"] != 0.0))
-      throw base::InputError(place_, "A native patch is a disk, a hexagon or a rectangle along the material's axes.");
-    context.setRange(0, options_.contains("stretch_limits") ? 0.05 : 0.6);
-    sheet.materials = {material(context)};
-    result->sheet = std::make_shared<const interlock::MacroSheet>(sheet);
+    const std::shared_ptr<MacroResult> result = begin(sheet, context);
     if (context.cancelRequested()) {
-      result->state.positions = sheet.mesh.points.reshaped();
       judgeNothing(*result);
       finish(*result, TerminationType::cancelled, "The study was cancelled.", watch);
       return result;
@@ -72,131 +40,73 @@ class MacroEquilibriumStudy final : public InterlockStudy {
                                                           : mechanics::StrainLimitFunction::Kind::penalty;
     macroOptions.penalty = options_["penalty"];
     if (options_["limits"] == "penalty") macroOptions.maximumIterations = 5000;
+    if (options_["elements"]) macroOptions.pathSpacing = pathSpacing * cell_->lattice.colwise().norm().minCoeff();
     const interlock::MacroSimulation simulation =
-        locate(place_, [&] { return interlock::MacroSimulation(sheet, macroOptions); });
-    interlock::MacroLoads loads;
-    loads.gravity = vectorOf(options_["gravity"]);
-    loads.force = interlock::Vector::Zero(sheet.mesh.points.size());
-    for (const Json& load : options_["loads"]) {
-      result->loaded.push_back(nearest(sheet.mesh.points, planeOf(load["point"])));
-      loads.force.segment<3>(3 * Index{result->loaded.back()}) += vectorOf(load["force"]);
-    }
-    for (const Json& clamp : options_["clamps"]) {
-      const std::vector<int> nodes = within(sheet.mesh.points, clamp);
-      loads.clamped.insert(loads.clamped.end(), nodes.begin(), nodes.end());
-    }
+        locate(place_, [&] { return interlock::MacroSimulation(sheet, macroOptions, builder_.contact()); });
+    const interlock::MacroLoads loads = builder_.loads(sheet, &result->loaded);
+    const interlock::Vector start = builder_.start(sheet);
     result->clamped = loads.clamped;
-    context.setRange(options_.contains("stretch_limits") ? 0.05 : 0.6, options_["native"] ? 0.8 : 1);
-    result->state = simulation.equilibrium(loads, nullptr, context);
-    result->deflections =
-        moved(result->state.positions.reshaped(3, sheet.mesh.points.cols()), sheet.mesh.points, result->loaded);
+    const double settled = options_["native"] ? 0.8 : options_["elements"] ? begun() + 0.1 : 1;
+    context.setRange(begun(), settled);
+    result->state = locate(place_, [&] { return simulation.equilibrium(loads, &start, context); });
+    const Eigen::Matrix3Xd from = start.reshaped(3, sheet.mesh.points.cols());
+    result->deflections = moved(result->state.positions.reshaped(3, sheet.mesh.points.cols()), from, result->loaded);
     TerminationType termination = result->state.report.termination;
     if (options_["native"] && termination != TerminationType::cancelled) {
-      context.setRange(0.8, 1);
+      context.setRange(0.8, options_["elements"] ? 0.9 : 1);
       result->native = nativePatch(context);
       compare(sheet.mesh, result->state.positions, *result->native);
       if (termination == TerminationType::converged) termination = result->native->rest.termination;
     }
-    finish(*result, termination, result->state.report.message, watch);
+    std::string message = result->state.report.message;
+    if (options_["elements"] && termination == TerminationType::converged) {
+      context.setRange(options_["native"] ? 0.9 : settled, 1);
+      placeElements(start, *result, context);
+      termination = result->placed->detail.termination;
+      message = result->placed->detail.message;
+      if (termination == TerminationType::converged && !result->placed->check.holds()) {
+        termination = TerminationType::failed;
+        message = "Placed elements overlap, or are linked otherwise than at rest.";
+      }
+    }
+    finish(*result, termination, message, watch);
     context.reportProgress(1);
     if (observe) observe(result);
     return result;
   }
 
  private:
-  static void judgeNothing(MacroResult& result) {
-    const auto count = static_cast<Index>(result.sheet->mesh.triangles.size());
-    result.state.strains.stretch.setZero(3, count);
-    result.state.strains.curvature.setZero(3, count);
-    result.state.stretchGauge.setZero(count);
-    result.state.bendingGauge.setZero(count);
-    result.deflections.resize(3, 0);
+  void checkNative() const {
+    if (!options_["native"]) return;
+    if (options_["shape"] == "mesh" || options_["shape"] == "outline" || options_["angle"] != 0.0 ||
+        !options_["regions"].empty())
+      throw base::InputError(place_, "A native patch is a disk, a hexagon or a rectangle along the material's axes.");
+    if (!builder_.contact().bodies.empty() || options_["placement"] != Json(macroRestPlacement()))
+      throw base::InputError(place_, "A native patch meets no bodies, and starts where its sheet rests.");
   }
 
-  [[noreturn]] static void needs(const char* shape, const char* key) {
-    throw base::InputError("", std::string("A ") + shape + " needs \"" + key + "\".");
-  }
-
-  geometry::SurfaceMesh outline() const {
-    const std::string shape = options_["shape"];
-    const int rings = options_["rings"];
-    if (shape == "hexagon" || shape == "disk") {
-      if (!options_.contains("radius")) needs(shape.c_str(), "radius");
-      return shape == "disk" ? geometry::makeDisk(options_["radius"], rings)
-                             : geometry::makeHexagon(options_["radius"], rings);
-    }
-    if (shape == "rectangle") {
-      if (!options_.contains("size")) needs("rectangle", "size");
-      const double length = options_["size"][0], width = options_["size"][1], cell = std::max(length, width) / rings;
-      geometry::SurfaceMesh mesh =
-          geometry::makeGrid(length, width, std::max(1, static_cast<int>(std::lround(length / cell))),
-                             std::max(1, static_cast<int>(std::lround(width / cell))));
-      mesh.points.row(0).array() -= 0.5 * length;
-      return mesh;
-    }
-    if (!options_.contains("mesh")) needs("sheet of the shape \"mesh\"", "mesh");
-    geometry::SurfaceMesh mesh = geometry::readMesh(directory_ / options_["mesh"].get<std::string>(), 1);
-    mesh =
-        geometry::weldMesh(mesh, 1e-6 * (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm());
-    const auto& [a, b, c] = mesh.triangles.front();
-    const Vector3d normal =
-        (mesh.points.col(b) - mesh.points.col(a)).head<3>().cross(Vector3d(mesh.points.col(c) - mesh.points.col(a)));
-    if (normal.z() < 0)
-      for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
-    return mesh;
-  }
-
-  interlock::MacroMaterial material(base::ExecutionContext& context) const {
-    interlock::MacroMaterial material;
-    material.youngModulus = options_["young_modulus"];
-    material.poissonRatio = options_["poisson_ratio"];
-    material.density = options_["density"];
-    material.thickness = options_.contains("thickness") ? options_["thickness"].get<double>() : heightOfElements();
-    if (options_.contains("bending_limits")) material.bending = readSet("bending_limits");
-    if (options_.contains("stretch_limits")) {
-      material.stretch = readSet("stretch_limits");
-      return material;
-    }
-    const interlock::CellSolver solver(*cell_, {});
-    const interlock::StrainSpaceBoundary boundary = interlock::computeBoundary(solver, {}, context);
-    if (context.cancelRequested()) return material;
-    if (!boundary.isClosed())
-      throw base::InputError(place_, "The material's limits of stretch could not all be found: " + boundary.message);
-    geometry::SurfaceMesh mesh;
-    mesh.triangles = boundary.mesh.triangles;
-    mesh.points.resize(3, static_cast<Index>(boundary.states.size()));
-    for (std::size_t i = 0; i < boundary.states.size(); ++i)
-      mesh.points.col(static_cast<Index>(i)) = interlock::greenStrain(boundary.strainAt(static_cast<int>(i)));
-    material.stretch = locate(place_, [&] { return strainSetOf(std::move(mesh)); });
-    return material;
-  }
-
-  std::shared_ptr<const AdmissibleStrainSet> readSet(const char* key) const {
-    return locate(place_ + "/" + key, [&] {
-      geometry::SurfaceMesh mesh = geometry::readMesh(directory_ / options_[key].get<std::string>(), 1);
-      const double size = (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
-      return strainSetOf(geometry::weldMesh(mesh, 1e-6 * size));
+  /// Along the way that the equilibrium took.
+  void placeElements(const interlock::Vector& start, MacroResult& result, base::ExecutionContext& context) const {
+    const geometry::SurfaceMesh& mesh = result.sheet->mesh;
+    const interlock::SheetDetailer detailer = locate(place_ + "/elements", [&] {
+      return interlock::SheetDetailer(*cell_, mesh, options_["angle"], planeOf(options_["centre"]));
     });
+    std::vector<Eigen::Matrix3Xd> path{start.reshaped(3, mesh.points.cols())};
+    for (std::size_t i = 1; i < result.state.path.size(); ++i)
+      path.emplace_back(result.state.path[i].reshaped(3, mesh.points.cols()));
+    path.emplace_back(result.state.positions.reshaped(3, mesh.points.cols()));
+    const double reach = cell_->smallestRadius();
+    result.placed.emplace();
+    base::ExecutionContext silent;
+    const interlock::SheetDetail rest = detailer.follow({path.front()}, silent);
+    result.placed->before = checkDetail(*cell_, rest.elements, rest.state, reach);
+    result.placed->detail = detailer.follow(path, context);
+    result.placed->check = checkDetail(*cell_, result.placed->detail.elements, result.placed->detail.state, reach);
+    result.state.path.clear();
   }
 
-  double heightOfElements() const {
-    const geometry::SurfaceMesh mesh = cellSurface(*cell_, interlock::restState(*cell_), 1, 1, 0.5);
-    return mesh.points.row(2).maxCoeff() - mesh.points.row(2).minCoeff();
-  }
-
-  static int nearest(const Eigen::Matrix3Xd& places, const Vector2d& point) {
-    Index node = 0;
-    (places.topRows<2>().colwise() - point).colwise().squaredNorm().minCoeff(&node);
-    return static_cast<int>(node);
-  }
-
-  static std::vector<int> within(const Eigen::Matrix3Xd& places, const Json& clamp) {
-    const Vector2d point = planeOf(clamp["point"]);
-    const double radius = clamp["radius"];
-    std::vector<int> found;
-    for (Index i = 0; i < places.cols(); ++i)
-      if ((places.col(i).head<2>() - point).norm() <= radius) found.push_back(static_cast<int>(i));
-    return found.empty() ? std::vector<int>{nearest(places, point)} : found;
+  static Json macroRestPlacement() {
+    return {{"position", {0.0, 0.0, 0.0}}, {"axis", {0.0, 0.0, 1.0}}, {"angle", 0.0}};
   }
 
   static Eigen::Matrix3Xd moved(const Eigen::Matrix3Xd& places, const Eigen::Matrix3Xd& rest,
@@ -229,14 +139,14 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     const interlock::PatchSolver solver(*native.patch, equilibrium);
     interlock::PatchLoads loads;
     // The same weight an area as the sheet has.
-    loads.forces = interlock::weightsOf(*native.patch, nativeDensity(), vectorOf(options_["gravity"]));
+    loads.forces = interlock::weightsOf(*native.patch, nativeDensity(), spaceOf(options_["gravity"]));
     std::vector<int> loaded;
     for (const Json& load : options_["loads"]) {
-      loaded.push_back(nearest(rest, planeOf(load["point"])));
-      loads.forces.push_back({loaded.back(), vectorOf(load["force"]), Vector3d::Zero()});
+      loaded.push_back(nearestOf(rest, planeOf(load["point"])));
+      loads.forces.push_back({loaded.back(), spaceOf(load["force"]), Vector3d::Zero()});
     }
     for (const Json& clamp : options_["clamps"])
-      for (const int element : within(rest, clamp))
+      for (const int element : nodesWithin(rest, clamp))
         if (std::find(loads.clamped.begin(), loads.clamped.end(), element) == loads.clamped.end())
           loads.clamped.push_back(element);
     native.rest = solver.solve(interlock::restState(*native.patch), loads, &context);
@@ -251,7 +161,8 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     for (const interlock::InterlockingElement& element : cell_->elements)
       volume += interlock::bodyMass(cell_->shapes[static_cast<std::size_t>(element.shape)]).volume;
     const double area = std::abs(cell_->lattice.determinant());
-    const double thickness = options_.contains("thickness") ? options_["thickness"].get<double>() : heightOfElements();
+    const double thickness =
+        options_.contains("thickness") ? options_["thickness"].get<double>() : MacroBuilder::heightOf(*cell_);
     return options_["density"].get<double>() * thickness * area / volume;
   }
 
@@ -278,8 +189,6 @@ class MacroEquilibriumStudy final : public InterlockStudy {
     }
     if (native.compared > 0) native.meanDistance /= native.compared;
   }
-
-  std::string place_;
 };
 
 }  // namespace

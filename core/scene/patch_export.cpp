@@ -9,12 +9,12 @@
 #include "core/interlock/element_body.hpp"
 #include "core/interlock/fabric_patch.hpp"
 #include "core/math/parallel.hpp"
-#include "core/scene/csv.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/interlock_result.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
+#include "core/scene/outline_file.hpp"
 
 namespace pliant::scene {
 
@@ -66,29 +66,6 @@ Fabric fabricAtRest(const Scene& scene, const PatchRequest& request) {
   return {cell, restState(cell)};
 }
 
-/// The unit in the brackets of a column's name.
-double unitOf(std::string_view column) {
-  const std::size_t open = column.find('['), close = column.find(']');
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open)
-    throw InputError("", "the column \"" + std::string(column) + "\" names no unit, as \"x [mm]\" does");
-  return base::parseQuantity("1 " + std::string(column.substr(open + 1, close - open - 1)), dimensions::length);
-}
-
-Eigen::Matrix2Xd polygonFrom(const std::string& file) {
-  const std::string text = readTextFile(file);
-  const auto rows = locate(file, [&] { return readCsv(text); });
-  return locate(file, [&] {
-    const std::string header = text.substr(0, text.find('\n'));
-    const std::size_t comma = header.find(',');
-    if (comma == std::string::npos) throw InputError("", "an outline needs two columns, \"x [mm]\" and \"y [mm]\"");
-    const double unitX = unitOf(header.substr(0, comma)), unitY = unitOf(header.substr(comma + 1));
-    Eigen::Matrix2Xd corners(2, static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      corners.col(static_cast<Eigen::Index>(i)) << unitX * csvNumber(rows[i][0]), unitY * csvNumber(rows[i][1]);
-    return corners;
-  });
-}
-
 double lengthFrom(const std::string& text) {
   const double length = base::parseQuantity(text, dimensions::length);
   if (!(length > 0)) throw InputError("", "the lengths of an outline must be above 0");
@@ -101,7 +78,7 @@ bool isWholeNumber(const std::string& text) {
 
 interlock::FabricPatch patchFrom(const Fabric& fabric, const std::string& outline) {
   if (outline.ends_with(".csv")) {
-    const Eigen::Matrix2Xd polygon = polygonFrom(outline);
+    const Eigen::Matrix2Xd polygon = readOutline(outline).front();
     return locate(outline, [&] { return patchInside(fabric.cell, fabric.state, polygon); });
   }
   return locate("--patch " + quote(outline), [&] {

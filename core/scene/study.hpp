@@ -142,7 +142,7 @@ using StudyFactory =
 /// Kinds of studies by "type": "periodic_motion", "frequency_response", "backbone", "linear_modes", "linear_response",
 /// "time_integration", "comparison", "cloth_motion", "cloth_drape", "projection", "cell_test", "free_travel",
 /// "stretch_grid", "stretch_boundary", "bending_test", "curvature_limits", "bending_size", "bending_boundary",
-/// "gravity_bending", "macro_equilibrium".
+/// "gravity_bending", "macro_equilibrium", "macro_motion".
 class StudyRegistry {
  public:
   static const StudyRegistry& instance();

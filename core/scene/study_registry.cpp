@@ -77,7 +77,8 @@ StudyRegistry::StudyRegistry()
                  {"bending_size", makeBendingSizeStudy},
                  {"bending_boundary", makeBendingBoundaryStudy},
                  {"gravity_bending", makeGravityBendingStudy},
-                 {"macro_equilibrium", makeMacroEquilibriumStudy}} {}
+                 {"macro_equilibrium", makeMacroEquilibriumStudy},
+                 {"macro_motion", makeMacroMotionStudy}} {}
 
 const StudyRegistry& StudyRegistry::instance() {
   static const StudyRegistry registry;
@@ -125,6 +126,14 @@ std::string hashScene(const Scene& scene) {
     for (const Json& measurement : study.value("measurements", Json::array())) addFile(measurement, "file");
     addFile(study, "polar_file");
     if (study.contains("strain_region")) addFile(study["strain_region"], "file");
+    // Studies say themselves which of these they miss.
+    const auto addOwnFile = [&](const Json& entry, const char* key) {
+      const Json name = entry.value(key, Json());
+      if (name.is_string() && std::filesystem::exists(scene.directory() / name.get<std::string>())) addFile(entry, key);
+    };
+    for (const char* key : {"stretch_limits", "bending_limits", "outline", "mesh"}) addOwnFile(study, key);
+    for (const Json& region : study.value("regions", Json::array()))
+      for (const char* key : {"stretch_limits", "bending_limits"}) addOwnFile(region, key);
     for (const Json& objective : study.value("objectives", Json::array()))
       for (const Json& path : objective.value("paths", Json::array())) addFile(path, "file");
   }

@@ -43,6 +43,7 @@ QString degrees(const scene::Json& options) {
 QString loadText(const scene::Json& options) {
   const std::string type = options.value("type", "");
   if (type == "gravity_bending") return QObject::tr("weight, free towards %1°").arg(degrees(options));
+  if (type == "macro_motion") return QObject::tr("sheet in motion");
   if (type == "macro_equilibrium") {
     const auto counted = [&](const char* key, const QString& one, const QString& many) {
       const std::size_t count = options.contains(key) ? options[key].size() : 0;
@@ -109,7 +110,8 @@ std::size_t placesOf(const LimitRow& row) {
 }  // namespace
 
 bool CellTestPanel::shows(const std::string& type) {
-  return type == "cell_test" || type == "bending_test" || type == "gravity_bending" || type == "macro_equilibrium";
+  return type == "cell_test" || type == "bending_test" || type == "gravity_bending" || type == "macro_equilibrium" ||
+         type == "macro_motion";
 }
 
 CellTestPanel::CellTestPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {

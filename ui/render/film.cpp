@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/pending_file.hpp"
+#include "ui/render/macro_view.hpp"
 #include "ui/render/offscreen_target.hpp"
 
 namespace pliant::render {
@@ -116,11 +117,14 @@ std::string timeLine(double time, FrameClock clock) {
 
 }  // namespace
 
-std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& problem,
-                              const std::vector<std::shared_ptr<const scene::ClothFrame>>& frames, FrameClock clock,
-                              const FilmOptions& options, const std::filesystem::path& file,
-                              base::ExecutionContext& context) {
-  if (frames.empty()) throw base::InputError(file.string(), "There are no frames of a cloth to film.");
+namespace {
+
+/// Films frames, each until the next one's time: `showFrame(i)` shows one. With a caption that tells the time.
+template <class Frame>
+std::optional<Film> filmFrames(View& view, OffscreenTarget& target,
+                               const std::vector<std::shared_ptr<const Frame>>& frames, FrameClock clock,
+                               const std::function<void(int)>& showFrame, const FilmOptions& options,
+                               const std::filesystem::path& file, base::ExecutionContext& context) {
   const double speed = checkedSpeed(options, 1) * (clock == FrameClock::steps ? drapeStepsPerSecond : 1);
   double shortest = INFINITY;
   for (std::size_t i = 1; i < frames.size(); ++i) shortest = std::min(shortest, frames[i]->time - frames[i - 1]->time);
@@ -129,7 +133,24 @@ std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& 
   const double begin = frames.front()->time, end = frames.back()->time;
   const double between = speed / rate.perSecond();
   const int count = checkedCount(std::ceil((end - begin) / between - slack) + 1);
+  std::size_t shown = 0;
+  const auto show = [&](int picture) {
+    const double reached = begin + (picture + slack) * between;
+    while (shown + 1 < frames.size() && (frames[shown + 1]->time <= reached || picture == count - 1)) ++shown;
+    showFrame(static_cast<int>(shown));
+    view.setCaption(options.picture.caption + (options.picture.caption.empty() ? "" : "\n") +
+                    timeLine(frames[shown]->time, clock));
+  };
+  return shoot(view, count, rate, show, options, file, target, context);
+}
 
+}  // namespace
+
+std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& problem,
+                              const std::vector<std::shared_ptr<const scene::ClothFrame>>& frames, FrameClock clock,
+                              const FilmOptions& options, const std::filesystem::path& file,
+                              base::ExecutionContext& context) {
+  if (frames.empty()) throw base::InputError(file.string(), "There are no frames of a cloth to film.");
   OffscreenTarget target;
   ClothView view;
   view.setProblem(problem);
@@ -137,15 +158,19 @@ std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& 
   view.setSelectedNode(options.picture.selectedNode);
   view.setField(options.field);
   view.setDirectionsVisible(options.directionsVisible);
-  std::size_t shown = 0;
-  const auto show = [&](int picture) {
-    const double reached = begin + (picture + slack) * between;
-    while (shown + 1 < frames.size() && (frames[shown + 1]->time <= reached || picture == count - 1)) ++shown;
-    view.setFrame(static_cast<int>(shown));
-    view.setCaption(options.picture.caption + (options.picture.caption.empty() ? "" : "\n") +
-                    timeLine(frames[shown]->time, clock));
-  };
-  return shoot(view, count, rate, show, options, file, target, context);
+  return filmFrames(
+      view, target, frames, clock, [&](int frame) { view.setFrame(frame); }, options, file, context);
+}
+
+std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& result, const FilmOptions& options,
+                              const std::filesystem::path& file, base::ExecutionContext& context) {
+  if (result->frames.empty()) throw base::InputError(file.string(), "There are no frames of a sheet to film.");
+  OffscreenTarget target;
+  MacroView view;
+  view.setResult(result);
+  return filmFrames(
+      view, target, result->frames, FrameClock::seconds, [&](int frame) { view.setFrame(frame); }, options, file,
+      context);
 }
 
 std::optional<Film> filmMotion(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,

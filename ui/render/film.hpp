@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/base/execution_context.hpp"
+#include "core/scene/macro_result.hpp"
 #include "ui/render/offscreen.hpp"
 #include "ui/render/theora_video.hpp"
 
@@ -44,6 +45,10 @@ std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& 
                               const std::vector<std::shared_ptr<const scene::ClothFrame>>& frames, FrameClock clock,
                               const FilmOptions& options, const std::filesystem::path& file,
                               base::ExecutionContext& context);
+
+/// The same of the frames of a "macro_motion".
+std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& result, const FilmOptions& options,
+                              const std::filesystem::path& file, base::ExecutionContext& context);
 
 /// The same of the periodic motion with coefficients `z` and this period [s], in pictures evenly spaced, so that the
 /// last is followed by the first.

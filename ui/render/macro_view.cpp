@@ -3,13 +3,16 @@
 #include <vtkRenderWindow.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/units.hpp"
+#include "ui/render/body_figure.hpp"
 #include "ui/render/boundary_geometry.hpp"
 #include "ui/render/bounds.hpp"
 #include "ui/render/color_key.hpp"
 #include "ui/render/color_map.hpp"
 #include "ui/render/dot_overlay.hpp"
+#include "ui/render/element_figure.hpp"
 #include "ui/render/offscreen_target.hpp"
 #include "ui/render/ring.hpp"
 #include "ui/render/sheet_primitive.hpp"
@@ -39,15 +42,20 @@ struct MacroView::Parts {
   DotOverlay clamps, loads, origins;
   Ring selectionRing;
   ColorKey key;
+  BodyFigure bodies;
+  ElementFigure elements;
   std::shared_ptr<const scene::MacroResult> result;
+  int frame = -1;
   MacroField field = MacroField::nearest;
   Picks picks = Picks::triangles;
   std::optional<int> selected;  ///< triangle
-  bool stale = false;
+  bool stale = false, wantsElements = false;
 
   explicit Parts(Stage& around) : stage(around) {
     stage.renderer()->AddActor(sheet.actor());
     stage.renderer()->AddActor(edges.actor());
+    bodies.addTo(stage.renderer());
+    elements.addTo(stage.renderer());
     clamps.addTo(stage.renderer());
     loads.addTo(stage.renderer());
     origins.addTo(stage.renderer());
@@ -60,7 +68,10 @@ struct MacroView::Parts {
       key.layOut();
     };
     stage.onTheme = [this] { applyTheme(); };
-    stage.onField = [this] { applyTheme(); };
+    stage.onField = [this] {
+      show();
+      applyTheme();
+    };
     stage.onPixelRatio = [this] {
       edges.setPixelRatio(stage.pixelRatio());
       for (DotOverlay* dots : overlays()) dots->setPixelRatio(stage.pixelRatio());
@@ -74,13 +85,27 @@ struct MacroView::Parts {
 
   std::array<DotOverlay*, 3> overlays() { return {&clamps, &loads, &origins}; }
 
-  Points positions() const { return result->state.positions.reshaped(3, result->sheet->mesh.points.cols()); }
+  const scene::MacroFrame* shownFrame() const {
+    return result && frame >= 0 && frame < static_cast<int>(result->frames.size())
+               ? result->frames[static_cast<std::size_t>(frame)].get()
+               : nullptr;
+  }
+  Points positions() const {
+    if (const scene::MacroFrame* shown = shownFrame()) return shown->positions;
+    return result->state.positions.reshaped(3, result->sheet->mesh.points.cols());
+  }
+  /// Without the colours of the sheet there is nothing on it that its elements would hide.
+  bool showsElements() const { return result && result->placed && (wantsElements || !stage.fieldVisible()); }
 
   void show() {
     const bool visible = result && result->state.positions.size() > 0;
-    for (vtkActor* actor : {sheet.actor(), edges.actor()}) actor->SetVisibility(visible);
+    for (vtkActor* actor : {sheet.actor(), edges.actor()}) actor->SetVisibility(visible && !showsElements());
+    elements.show(showsElements() ? result.get() : nullptr);
     for (DotOverlay* dots : overlays()) dots->setVisible(visible);
-    if (!visible) return;
+    if (!visible) {
+      bodies.setBodies({});
+      return;
+    }
     const geometry::SurfaceMesh& mesh = result->sheet->mesh;
     const Points places = positions();
     sheet.setTopology(mesh.triangles);
@@ -91,8 +116,12 @@ struct MacroView::Parts {
     for (Eigen::Index i = 0; i < places.cols(); ++i) edgePoints->SetPoint(i, places.col(i).data());
     edges.setPoints(edgePoints);
     edges.setTopology(segments);
+    bodies.setBodies(result->bodies);
+    const scene::MacroFrame* now = shownFrame();
+    bodies.setPoints(now ? Points(now->bodyPoints) : mechanics::bodyPointsAt(result->bodies, 0));
     Bounds bounds;
     bounds.add(places);
+    for (const auto& each : result->frames) bounds.add(each->positions);
     if (result->native) bounds.add(result->native->rest.state.positions);
     stage.camera().setReach(bounds.corners());
   }
@@ -102,6 +131,8 @@ struct MacroView::Parts {
     const bool visible = result && result->state.positions.size() > 0;
     setColor(sheet.actor(), stale ? faded(colors.rest) : colors.rest);
     setColor(edges.actor(), colors.background);
+    bodies.setColor(stale ? faded(colors.spring) : colors.spring);
+    elements.setColors(colors);
     clamps.setColors(colors.link, colors.background);
     loads.setColors(colors.driven, colors.background);
     origins.setColors(colors.prediction, colors.background);
@@ -116,7 +147,7 @@ struct MacroView::Parts {
   }
 
   void showField() {
-    const bool visible = result && stage.fieldVisible() && result->state.stretchGauge.size() > 0;
+    const bool visible = result && stage.fieldVisible() && result->state.stretchGauge.size() > 0 && !showsElements();
     setViridis(table, 0, 1, stale);
     stage.legend().setQuantity(field == MacroField::bending   ? "bending / limit\n1: at the limit"
                                : field == MacroField::stretch ? "stretch / limit\n1: at the limit"
@@ -128,10 +159,12 @@ struct MacroView::Parts {
       sheet.setField(nullptr, table);
       return;
     }
-    const interlock::MacroState& state = result->state;
-    const Eigen::VectorXd values = field == MacroField::stretch   ? state.stretchGauge
-                                   : field == MacroField::bending ? state.bendingGauge
-                                                                  : state.stretchGauge.cwiseMax(state.bendingGauge);
+    const scene::MacroFrame* shown = shownFrame();
+    const Eigen::VectorXd& stretch = shown ? shown->stretchGauge : result->state.stretchGauge;
+    const Eigen::VectorXd& bending = shown ? shown->bendingGauge : result->state.bendingGauge;
+    const Eigen::VectorXd values = field == MacroField::stretch   ? stretch
+                                   : field == MacroField::bending ? bending
+                                                                  : Eigen::VectorXd(stretch.cwiseMax(bending));
     sheet.setField(&values, table);
   }
 
@@ -165,6 +198,7 @@ MacroView::~MacroView() { attach(nullptr); }
 
 void MacroView::setResult(std::shared_ptr<const scene::MacroResult> result) {
   parts_->result = std::move(result);
+  parts_->frame = parts_->result ? static_cast<int>(parts_->result->frames.size()) - 1 : -1;
   parts_->show();
   parts_->applyTheme();
 }
@@ -175,6 +209,21 @@ void MacroView::setField(MacroField field) {
   parts_->field = field;
   parts_->showField();
 }
+
+void MacroView::setFrame(int frame) {
+  if (!parts_->result || frame < 0 || frame >= static_cast<int>(parts_->result->frames.size())) return;
+  parts_->frame = frame;
+  parts_->show();
+  parts_->showField();
+}
+
+void MacroView::setElementsVisible(bool visible) {
+  parts_->wantsElements = visible;
+  parts_->show();
+  parts_->applyTheme();
+}
+
+bool MacroView::elementsVisible() const { return parts_->showsElements(); }
 
 void MacroView::setStale(bool stale) {
   if (parts_->stale == stale) return;
@@ -209,6 +258,16 @@ std::string macroCaption(const scene::MacroResult& result) {
       largest = std::max(largest, result.deflections.col(i).norm());
     text += "\nloads moved by up to " + millimetres(largest);
   }
+  if (result.placed) {
+    const auto& [detail, before, check] = *result.placed;
+    text += "\n" + std::to_string(detail.elements.size()) + " elements,  " + std::to_string(check.links) + " links" +
+            (check.lostLinks + check.newLinks == 0 ? " as at rest" : ", NOT as at rest") + ",  none nearer than " +
+            numberText(1e6 * check.smallestDistance) + " µm,  at most " + millimetres(detail.pulls.maxCoeff()) +
+            " off the sheet";
+  }
+  if (result.isMotion() && !result.steps.empty())
+    text += "\n" + std::to_string(result.steps.size()) + " steps to " +
+            base::formatQuantity(result.steps.back().time, base::dimensions::time);
   if (result.native)
     text += std::string(result.deflections.cols() > 0 ? ",  " : "\n") + "elements " +
             millimetres(result.native->meanDistance) + " off the sheet (at most " +
@@ -216,12 +275,21 @@ std::string macroCaption(const scene::MacroResult& result) {
   return text;
 }
 
-Image drawMacro(const std::shared_ptr<const scene::MacroResult>& result, const PictureOptions& options) {
+Image drawMacro(const std::shared_ptr<const scene::MacroResult>& result, const PictureOptions& options,
+                std::optional<double> time, bool elements) {
   OffscreenTarget target;
   target.setSize(options.width, options.height);
   MacroView view;
   view.attach(target.window());
   view.setResult(result);
+  view.setElementsVisible(elements);
+  if (time && !result->frames.empty()) {
+    const auto later = [&](const auto& a, const auto& b) {
+      return std::abs(a->time - *time) < std::abs(b->time - *time);
+    };
+    const auto nearest = std::min_element(result->frames.begin(), result->frames.end(), later);
+    view.setFrame(static_cast<int>(nearest - result->frames.begin()));
+  }
   view.setTheme(options.theme);
   view.setCaption(options.caption);
   view.setAxisView(options.view);

@@ -12,8 +12,9 @@ namespace pliant::render {
 /// What colours a sheet of interlocking material: how near it is to its limits, 1 being at one.
 enum class MacroField { nearest, stretch, bending };
 
-/// A large piece of interlocking material at rest, coloured by how near its triangles are to their limits, with its
-/// clamped and loaded nodes and, where they were computed as well, the origins of its elements.
+/// A large piece of interlocking material at rest or in motion, coloured by how near its triangles are to their limits,
+/// with the bodies it meets, its clamped and loaded nodes and, where they were computed as well, the origins of its
+/// elements; or the elements themselves, as instances of one surface for each shape, the coarser the more there are.
 class MacroView final : public View {
  public:
   MacroView();
@@ -23,6 +24,12 @@ class MacroView final : public View {
   void setResult(std::shared_ptr<const scene::MacroResult> result);
   const std::shared_ptr<const scene::MacroResult>& result() const;
   void setField(MacroField field);
+  /// Of a motion the frame with this number, if there is one; at first the last.
+  void setFrame(int frame);
+  /// The elements in their places instead of the sheet, where they have been placed, always (off at first) and not only
+  /// while the field is off.
+  void setElementsVisible(bool visible);
+  bool elementsVisible() const;
   /// Greys the sheet: inputs have changed since.
   void setStale(bool stale);
 
@@ -42,7 +49,9 @@ class MacroView final : public View {
 /// The numbers that belong to it, in lines.
 std::string macroCaption(const scene::MacroResult& result);
 
-/// Draws it without a display, as renderToImage() does.
-Image drawMacro(const std::shared_ptr<const scene::MacroResult>& result, const PictureOptions& options);
+/// Draws it without a display, as renderToImage() does; of a motion the frame nearest to `time` [s], of placed elements
+/// these if asked for.
+Image drawMacro(const std::shared_ptr<const scene::MacroResult>& result, const PictureOptions& options,
+                std::optional<double> time = std::nullopt, bool elements = false);
 
 }  // namespace pliant::render

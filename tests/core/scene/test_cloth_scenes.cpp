@@ -121,7 +121,7 @@ class TestClothScenes : public QObject {
       ClothResult::read(other, place);
       QFAIL("read frames of another mesh");
     } catch (const base::InputError& error) {
-      QVERIFY2(QString(error.what()).contains("no frame of a cloth with 30 nodes"), error.what());
+      QVERIFY2(QString(error.what()).contains("no frame of a sheet with 30 nodes"), error.what());
     }
   }
 
