@@ -24,7 +24,6 @@ namespace {
 using scene::Json;
 using scene::SheetLimit;
 
-constexpr const char* sheetType = "macro_equilibrium";
 constexpr double setOpacity = 0.35;
 
 /// The largest first, over the share of all triangles that are as near or nearer.
@@ -43,7 +42,8 @@ plots::PlotLine sortedLine(const QString& name, Eigen::VectorXd gauges, int grou
 }  // namespace
 
 SheetPanel::SheetPanel(document::Document& document, QWidget* parent)
-    : StudyPanel(document, {sheetType}, parent), space_(std::make_shared<render::BoundaryView>()) {
+    : StudyPanel(document, {"macro_equilibrium", "macro_motion"}, parent),
+      space_(std::make_shared<render::BoundaryView>()) {
   makeControls();
   plot_ = new plots::LinePlot;
   auto* split = new QSplitter(Qt::Horizontal);
@@ -64,7 +64,8 @@ void SheetPanel::makeControls() {
     switches()->addWidget(made);
     return made;
   };
-  fields_ = combo(tr("What colours the sheet"), {tr("Nearest limit"), tr("Stretch"), tr("Bending")});
+  fields_ = combo(tr("What colours the sheet; or its elements, where the study has placed them"),
+                  {tr("Nearest limit"), tr("Stretch"), tr("Bending"), tr("Elements")});
   connect(fields_, &QComboBox::activated, this, &SheetPanel::viewChanged);
   plots_ = combo(tr("What the plot shows"), {tr("Nearness to limits"), tr("Deflection of all sheets")});
   connect(plots_, &QComboBox::activated, this, &SheetPanel::refreshPlot);
@@ -131,9 +132,13 @@ QWidget* SheetPanel::makeSpace() {
 QString SheetPanel::readout() const { return readout_->text(); }
 
 render::MacroField SheetPanel::field() const {
-  constexpr std::array fields{render::MacroField::nearest, render::MacroField::stretch, render::MacroField::bending};
-  return fields[static_cast<std::size_t>(std::max(0, fields_->currentIndex()))];
+  const int chosen = fields_->currentIndex();
+  return chosen == 1   ? render::MacroField::stretch
+         : chosen == 2 ? render::MacroField::bending
+                       : render::MacroField::nearest;
 }
+
+bool SheetPanel::showsElements() const { return fields_->currentIndex() == 3; }
 
 SheetPanel::Clicks SheetPanel::clicks() const { return static_cast<Clicks>(clicks_->checkedId()); }
 
@@ -141,7 +146,8 @@ void SheetPanel::setClicks(Clicks clicks) { clicks_->button(static_cast<int>(cli
 
 QString SheetPanel::absentNote() const {
   return tr(
-      "A study of the type macro_equilibrium hangs, presses or bends a large piece of an interlocking material. "
+      "Studies of the types macro_equilibrium and macro_motion hang, press or move a large piece of an interlocking "
+      "material. "
       "This scene has none; add one in the scene's tree.");
 }
 

@@ -35,6 +35,8 @@ class SheetPanel final : public StudyPanel {
   void exportTo(const QString& file) override;
 
   render::MacroField field() const;
+  /// The elements instead of the sheet, where a study has placed them.
+  bool showsElements() const;
   /// What a click at the sheet is for.
   enum class Clicks { read, clamp, load };
   Clicks clicks() const;

@@ -260,6 +260,7 @@ void InterlockLink::leave() {
 
 void InterlockLink::refreshSheet() {
   macroView_->setField(sheets_.field());
+  macroView_->setElementsVisible(sheets_.showsElements());
   macroView_->setPicks(sheets_.clicks() == panels::SheetPanel::Clicks::read ? render::MacroView::Picks::triangles
                                                                             : render::MacroView::Picks::nodes);
   macroView_->setSelectedTriangle(sheets_.selectedTriangle());
