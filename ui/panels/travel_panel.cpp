@@ -12,7 +12,9 @@
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "core/scene/element_design_chart.hpp"
 #include "core/scene/polar_curves.hpp"
+#include "ui/panels/value_text.hpp"
 #include "ui/plots/plot_export.hpp"
 #include "ui/plots/polar_plot.hpp"
 
@@ -28,12 +30,17 @@ std::optional<scene::PolarCurves> curvesOf(const scene::Result* result) {
     return scene::freeTravelCurves(*travel);
   if (const auto* bending = dynamic_cast<const scene::CurvatureLimitsResult*>(result))
     return scene::curvatureLimitCurves(*bending);
+  if (const auto* design = dynamic_cast<const scene::ElementDesignStudyResult*>(result);
+      design && !design->design.history.empty())
+    return scene::elementDesignCurves(scene::designedLimits(*design));
   return std::nullopt;
 }
 
 }  // namespace
 
-bool TravelPanel::shows(const std::string& type) { return type == "free_travel" || type == "curvature_limits"; }
+bool TravelPanel::shows(const std::string& type) {
+  return type == "free_travel" || type == "curvature_limits" || type == "element_design";
+}
 
 TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidget(parent), document_(document) {
   auto* empty = new QWidget;
@@ -78,12 +85,25 @@ TravelPanel::TravelPanel(document::Document& document, QWidget* parent) : QWidge
   column->setSpacing(0);
   column->addLayout(head);
   column->addWidget(plot_, 1);
+  summary_ = new QLabel;
+  summary_->setWordWrap(true);
+  summary_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  take_ = new QPushButton(tr("Take This Element"));
+  take_->setToolTip(tr("Puts its numbers into the scene; undo brings the old ones back"));
+  designRow_ = new QWidget;
+  auto* foot = new QHBoxLayout(designRow_);
+  foot->setContentsMargins(16, 4, 16, 8);
+  foot->addWidget(summary_, 1);
+  foot->addWidget(take_);
+  column->addWidget(designRow_);
+  designRow_->hide();
   pages_ = new QStackedLayout(this);
   pages_->addWidget(empty);
   pages_->addWidget(shown);
 
   connect(run_, &QPushButton::clicked, this, [this] { Q_EMIT runRequested(study()); });
   connect(studies_, &QComboBox::activated, this, &TravelPanel::refresh);
+  connect(take_, &QPushButton::clicked, this, &TravelPanel::takeElement);
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     plot_->clearMeasured();
     fillStudies();
@@ -129,8 +149,8 @@ void TravelPanel::refresh() {
   run_->setText(tr("Run %1").arg(studies_->currentText()));
   note_->setText(
       !state ? tr("Studies of the types free_travel and curvature_limits find how far an interlocking "
-                  "material stretches, compresses or bends in each direction. This scene has none; add one "
-                  "in the scene's tree.")
+                  "material stretches, compresses or bends in each direction, and those of the type element_design "
+                  "find an element for wanted limits. This scene has none; add one in the scene's tree.")
       : busy ? tr("The limits are on their way.")
              : tr("The study “%1” finds the limits of this material in each direction.").arg(studies_->currentText()));
   pages_->setCurrentIndex(curves ? 1 : 0);
@@ -140,6 +160,56 @@ void TravelPanel::refresh() {
     refreshSwitches();
   }
   plot_->setStale(state && state->stale);
+  refreshDesign(busy);
+}
+
+QString TravelPanel::summary() const { return summary_->text(); }
+
+void TravelPanel::refreshDesign(bool busy) {
+  const auto* result = dynamic_cast<const scene::ElementDesignStudyResult*>(result_.get());
+  const bool isDesign = result && !result->design.history.empty();
+  designRow_->setVisible(isDesign);
+  if (!isDesign) return;
+  plot_->setEmptyText(tr("Wanted is a region of strain space, no single directions."));
+  const auto &before = result->design.history.front(), &best = result->design.best();
+  QStringList numbers;
+  for (std::size_t i = 0; i < result->numbers.size(); ++i) {
+    const auto& parameter = result->numbers[i].parameter;
+    const auto text = [&](double value) { return QString::fromStdString(rounded(value, parameter.dimension).text); };
+    const auto index = static_cast<Eigen::Index>(i);
+    numbers << tr("%1 %2 → %3")
+                   .arg(QString::fromStdString(parameter.name).replace('_', ' '), text(before.values[index]),
+                        text(best.values[index]));
+  }
+  const auto percent = [](double strain) { return QString::number(100 * strain, 'g', 3); };
+  QString end;
+  if (busy)
+    end = tr("running, iteration %1").arg(best.iteration);
+  else if (result->design.end == interlock::DesignEnd::reached)
+    end = tr("the limits wanted are reached");
+  else if (result->design.end == interlock::DesignEnd::stationary)
+    end = tr("no small change brings all limits nearer");
+  else if (result->design.end == interlock::DesignEnd::kink)
+    end = tr("contacts change here, and no step found better limits");
+  else
+    end = QString::fromStdString(result->message);
+  summary_->setText(tr("Off the wanted limits by %1 % → %2 % (root mean square); gaps at rest %3 → %4; %5.\n%6")
+                        .arg(percent(before.residual), percent(best.residual),
+                             QString::fromStdString(rounded(before.clearance, base::dimensions::length).text),
+                             QString::fromStdString(rounded(best.clearance, base::dimensions::length).text), end,
+                             numbers.join(QStringLiteral(",  "))));
+  take_->setEnabled(!busy);
+}
+
+void TravelPanel::takeElement() {
+  const auto* result = dynamic_cast<const scene::ElementDesignStudyResult*>(result_.get());
+  if (!result || document_.isEmpty()) return;
+  try {
+    document_.setValue("", scene::designedElementScene(document_.scene(), *result, result->design.best()),
+                       tr("Take the element found"));
+  } catch (const base::InputError& error) {
+    document_.raise(base::Severity::warning, QString::fromStdString(error.what()));
+  }
 }
 
 /// A box a curve, in its colour.

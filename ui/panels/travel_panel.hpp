@@ -19,7 +19,8 @@ class PolarPlot;
 namespace pliant::panels {
 
 /// Limits of stretch and compression and the free travel between them over the direction (thesis Fig. 4.6), or limits
-/// of curvature (Fig. 4.7), with what was measured.
+/// of curvature (Fig. 4.7), with what was measured; or those that a design of an element is to have, had first, and has
+/// found, which may be taken into the scene as one step of undo.
 class TravelPanel final : public QWidget {
   Q_OBJECT
 
@@ -32,6 +33,10 @@ class TravelPanel final : public QWidget {
   std::string study() const;
   void setStudy(const std::string& name);
   plots::PolarPlot* plot() const { return plot_; }
+  /// Takes the element that a design has found.
+  QPushButton* take() const { return take_; }
+  /// What is said of it.
+  QString summary() const;
   /// Throws base::InputError.
   void importMeasured(const QString& file);
 
@@ -44,6 +49,8 @@ class TravelPanel final : public QWidget {
   void refreshSwitches();
   void chooseMeasured();
   void exportPlot();
+  void refreshDesign(bool busy);
+  void takeElement();
 
   document::Document& document_;
   std::shared_ptr<const scene::Result> result_;
@@ -53,6 +60,9 @@ class TravelPanel final : public QWidget {
   QComboBox* studies_;
   QHBoxLayout* switches_;
   plots::PolarPlot* plot_;
+  QWidget* designRow_;
+  QLabel* summary_;
+  QPushButton* take_;
 };
 
 }  // namespace pliant::panels
