@@ -76,7 +76,8 @@ class DesignSearch {
           trust = 0.25 * std::min(trust, std::max(size, options_.smallestStep));
           continue;
         }
-        const double after = residualsOf(next).squaredNorm(), gain = before - after;
+        const VectorXd nextResiduals = residualsOf(next);
+        const double gain = before - nextResiduals.squaredNorm();
         const bool nearer = shortage(here) > 0 && shortage(next) < 0.9 * shortage(here);
         better = nearer || (shortage(next) <= shortage(here) && gain > smallestGain * promised && gain > 0);
         if (!better)

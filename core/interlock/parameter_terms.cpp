@@ -11,7 +11,6 @@
 namespace pliant::interlock {
 
 namespace {
-
 using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
@@ -27,7 +26,7 @@ class PairRates {
       : contact_(contact), state_(state), rates_(rates), count_(static_cast<Eigen::Index>(rates.size())) {}
 
   /// The derivatives by p of the pair's energy, and of its gradient by 15 local coordinates (15 x p); false if it is
-  /// not within range. The gap's own rate is kept too.
+  /// not within range.
   bool compute(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const Vector3d& offset,
                const CellContact::Barrier& barrier) {
     const Vector2d shift(pair.shift[0], pair.shift[1]);
@@ -47,10 +46,8 @@ class PairRates {
 
   const RowVectorXd& ofEnergy() const { return ofEnergy_; }
   const MatrixXd& ofGradient() const { return ofGradient_; }
-  /// Of the gap alone, and its gradient.
   const RowVectorXd& ofGap() const { return ofGap_; }
   const Eigen::Matrix<double, 15, 1>& gapGradient() const { return gapGradient_; }
-  double gap() const { return gap_; }
 
  private:
   const CellRate& rate(Eigen::Index k) const { return rates_[static_cast<std::size_t>(k)]; }
@@ -62,7 +59,6 @@ class PairRates {
   /// kept, or the place is at its end.
   void placeRates(int element, int index, const PlacedPart& part, double parameter, const Vector3d& weights,
                   Matrix3Xd& places, Matrix3Xd& tangents) const {
-    const auto whole = static_cast<std::size_t>(index);
     const Matrix3d& rotation = state_.rotations[static_cast<std::size_t>(element)];
     places.resize(3, count_);
     tangents.setZero(3, count_);
@@ -78,7 +74,7 @@ class PairRates {
       places.col(k) = rotation * moved.place;
       tangents.col(k) = rotation * moved.tangent;
       if (parameter > part.part->begin && parameter < part.part->end) continue;
-      const Part& arc = contact_.partsOf(element).parts()[whole];
+      const Part& arc = contact_.partsOf(element).parts()[static_cast<std::size_t>(index)];
       const double share = (parameter - arc.begin) / (arc.end - arc.begin);
       const double slide = (1 - share) * own.begins[index] + share * own.ends[index];
       places.col(k) += slide * part.curve->at(parameter).tangent;
@@ -121,7 +117,6 @@ class PairRates {
       }
       MatrixXd inner = slides.transpose() * slides;
       inner.diagonal() += closest.bend.head(free);
-      // As in ContactTerms.
       const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner);
       const auto inverse = solver.eigenvalues().cwiseMax(1e-10 * inner.trace()).cwiseInverse();
       mixed -=
@@ -138,8 +133,9 @@ class PairRates {
 
   /// (X_A - X_B) · ∂²(X_A - X_B)/∂u∂p of the free parameter i, with one number p a column: the rate of a curve's
   /// tangent, or of a simplex's edge along which its place slides.
-  RowVectorXd tangentTerms(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const ClosestArcs& closest, const ArcPlaces& at,
-                           int i, bool ofA, const Matrix3Xd& tangentsA, const Matrix3Xd& tangentsB) const {
+  RowVectorXd tangentTerms(const PartPair& pair, const PlacedPart& a, const PlacedPart& b, const ClosestArcs& closest,
+                           const ArcPlaces& at, int i, bool ofA, const Matrix3Xd& tangentsA,
+                           const Matrix3Xd& tangentsB) const {
     const PlacedPart& part = ofA ? a : b;
     const double sign = ofA ? 1 : -1;
     if (part.part->kind == PartKind::arc) return sign * closest.between.transpose() * (ofA ? tangentsA : tangentsB);
@@ -147,8 +143,7 @@ class PairRates {
     Matrix3Xd turned(3, count_);
     for (Eigen::Index k = 0; k < count_; ++k) {
       Vector3d edge = Vector3d::Zero();
-      for (int j = 0; j < 3; ++j)
-        edge += at.slopes(j, i) * shapeRate(k, element).corners.col(part.part->corners[j]);
+      for (int j = 0; j < 3; ++j) edge += at.slopes(j, i) * shapeRate(k, element).corners.col(part.part->corners[j]);
       turned.col(k) = state_.rotations[static_cast<std::size_t>(element)] * edge;
     }
     return sign * closest.between.transpose() * turned;
@@ -210,12 +205,12 @@ class PairRates {
     // The gradient by the corners changes with these, with the radii, which move the gap alone, and with the lengths of
     // the edges, which scale the mollifier (2 - z) z with z = c/ε: ∂m/∂ε = (2z - 2) z/ε and ∂∇m/∂ε = ∇c (4z - 2)/ε².
     MatrixXd gradientRates = hessian * cornerRates;
-    const double stiffness = element.stiffness;
     geometry::CornerVector distanceGradient = geometry::CornerVector::Zero();
     for (int i = 0; i < count; ++i) distanceGradient.segment<3>(3 * i) = closest.weights[i] * normal;
-    gradientRates -= stiffness * (function.slope * fadeGradient + fade * function.curvature * distanceGradient) *
+    gradientRates -= element.stiffness *
+                     (function.slope * fadeGradient + fade * function.curvature * distanceGradient) *
                      radiiRate_.transpose();
-    ofEnergy_ = gradient.transpose() * cornerRates - stiffness * fade * function.slope * radiiRate_.transpose();
+    ofEnergy_ = gradient.transpose() * cornerRates - element.stiffness * fade * function.slope * radiiRate_.transpose();
     if (edges && fade < 1)
       addMollifierRates(parts.corners, element, function, fadeGradient, distanceGradient, cornerRates, gradientRates);
     for (int i = 0; i < count; ++i) {
@@ -261,7 +256,6 @@ class PairRates {
   Eigen::Matrix<double, 15, 1> gapGradient_;
   double gap_ = 0;
 };
-
 }  // namespace
 
 ParameterTerms parameterTerms(const CellContact& contact, const CellState& state, const std::vector<PartPair>& pairs,
@@ -287,19 +281,18 @@ VectorXd gapRateAtRest(const CellContact& contact, const PartPair& pair, std::sp
   const auto count = static_cast<Eigen::Index>(rates.size());
   VectorXd result = VectorXd::Zero(count);
   const CellContact::Barrier everywhere{1, 1e3};  // longer than any pair is apart
-  contact.visitContacts(
-      rest, {pair}, everywhere, false, false, [&](const PartPair&, const ContactTerms& terms) {
-        pairRates.compute(pair, *terms.a, *terms.b, terms.offset, everywhere);
-        for (Eigen::Index k = 0; k < count; ++k) {
-          const CellRate& rate = rates[static_cast<std::size_t>(k)];
-          Eigen::Matrix<double, 15, 1> own = Eigen::Matrix<double, 15, 1>::Zero();
-          own.segment<3>(0) = rate.positions.col(pair.a);
-          own.segment<3>(3) = rate.turns.col(pair.a);
-          own.segment<3>(6) = rate.positions.col(pair.b);
-          own.segment<3>(9) = rate.turns.col(pair.b);
-          result[k] = pairRates.ofGap()[k] + pairRates.gapGradient().dot(own);
-        }
-      });
+  contact.visitContacts(rest, {pair}, everywhere, false, false, [&](const PartPair&, const ContactTerms& terms) {
+    pairRates.compute(pair, *terms.a, *terms.b, terms.offset, everywhere);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const CellRate& rate = rates[static_cast<std::size_t>(k)];
+      Eigen::Matrix<double, 15, 1> own = Eigen::Matrix<double, 15, 1>::Zero();
+      own.segment<3>(0) = rate.positions.col(pair.a);
+      own.segment<3>(3) = rate.turns.col(pair.a);
+      own.segment<3>(6) = rate.positions.col(pair.b);
+      own.segment<3>(9) = rate.turns.col(pair.b);
+      result[k] = pairRates.ofGap()[k] + pairRates.gapGradient().dot(own);
+    }
+  });
   return result;
 }
 

@@ -21,6 +21,24 @@ struct DesignCurveStyle {
   double width;
 };
 
+/// Where directions leave out far more than elsewhere nothing is known: one without values keeps curves apart there.
+void breakAtGaps(std::vector<DesignedLimit>& limits) {
+  constexpr double farther = 2.5, halfTurn = std::numbers::pi;
+  const std::vector<DesignedLimit> known = limits;
+  const auto gapAfter = [&](std::size_t i) {
+    return i + 1 < known.size() ? known[i + 1].angle - known[i].angle
+                                : known.front().angle + halfTurn - known.back().angle;
+  };
+  double smallest = halfTurn;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (gapAfter(i) > 1e-9) smallest = std::min(smallest, gapAfter(i));
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (gapAfter(i) > farther * smallest)
+      limits.push_back(
+          {known[i].name, std::fmod(known[i].angle + 0.5 * gapAfter(i), halfTurn), noLimit, noLimit, noLimit});
+  std::stable_sort(limits.begin(), limits.end(), [](const auto& a, const auto& b) { return a.angle < b.angle; });
+}
+
 }  // namespace
 
 DesignedLimits designedLimits(const ElementDesignStudyResult& result) {
@@ -71,9 +89,11 @@ PolarCurves elementDesignCurves(const DesignedLimits& design) {
       if (limit.angle < 0) limit.angle += std::numbers::pi;
     }
     std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.angle < b.angle; });
-    for (const auto& [name, value, dashed, width] : {DesignCurveStyle{"wanted", &DesignedLimit::wanted, true, 2.2},
-                                                     DesignCurveStyle{"first", &DesignedLimit::before, false, 0.8},
-                                                     DesignCurveStyle{"found", &DesignedLimit::after, false, 1.4}}) {
+    breakAtGaps(own);
+    // What is wanted stays visible over what is found.
+    for (const auto& [name, value, dashed, width] : {DesignCurveStyle{"first", &DesignedLimit::before, false, 0.8},
+                                                     DesignCurveStyle{"found", &DesignedLimit::after, false, 2.6},
+                                                     DesignCurveStyle{"wanted", &DesignedLimit::wanted, true, 1.2}}) {
       PolarCurve curve{std::string(kind) + " " + name, {}, {}, {}, true, dashed, width};
       for (const DesignedLimit& limit : own) {
         curve.angles.push_back(limit.angle);

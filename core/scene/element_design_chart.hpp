@@ -28,8 +28,8 @@ DesignedLimits designedLimits(const ElementDesignStudyResult& result);
 /// What such a study wrote into `directory`. Throws base::InputError.
 DesignedLimits readDesignedLimits(const std::filesystem::path& directory);
 
-/// Wanted limits of stretch and compression, those of the first element and of the best, in per cent. Without limits of
-/// directions it has no curves.
+/// Limits of stretch and compression of the first element and of the best, and those wanted, in per cent; broken where
+/// directions are far apart. Without limits of directions it has no curves.
 PolarCurves elementDesignCurves(const DesignedLimits& design);
 /// The residual over the iterations.
 ResultChart elementDesignChart(const DesignedLimits& design);

@@ -133,6 +133,7 @@ void BoundaryPanel::refresh() {
     view_->setSurface(surface_);
     refreshQuantities();
     refreshSlice();
+    Q_EMIT resultShown();
   }
   if (state && state->name != shownStudy_) {
     shownStudy_ = state->name;
@@ -162,6 +163,7 @@ QString BoundaryPanel::caption(const document::StudyState& study) const {
               .arg(percent(result_->boundary.largestError, 2));
   if (const int beyond = result_->boundary.count(&interlock::BoundaryState::seesBeyond); beyond > 0)
     text += '\n' + tr("not star-shaped in %1 directions").arg(beyond);
+  if (predicted_) text += '\n' + tr("transparent: predicted for the element now set; Update solves it");
   return text;
 }
 

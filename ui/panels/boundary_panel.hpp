@@ -54,6 +54,9 @@ class BoundaryPanel final : public QWidget {
   /// A result's folder or a boundary.ply, read in the background.
   void compareWithFile(const QString& file);
   const std::shared_ptr<const scene::BoundarySurface>& compared() const { return compared_; }
+  /// Drawn over the solved one in place of what it is compared with; null: none.
+  void showPredicted(std::shared_ptr<const scene::BoundarySurface> surface);
+  const std::shared_ptr<const scene::BoundarySurface>& predicted() const { return predicted_; }
   /// As if it had been clicked; -1: none.
   void examine(int state);
 
@@ -62,6 +65,8 @@ class BoundaryPanel final : public QWidget {
   /// A limit was chosen, or none any more (-1).
   void stateExamined(int state);
   void exportRequested();
+  /// Another result is on show.
+  void resultShown();
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -98,7 +103,7 @@ class BoundaryPanel final : public QWidget {
   document::Document& document_;
   jobs::JobRunner& quick_;
   std::shared_ptr<const scene::LimitSurface> result_;
-  std::shared_ptr<const scene::BoundarySurface> surface_, compared_;
+  std::shared_ptr<const scene::BoundarySurface> surface_, compared_, predicted_;
   std::map<QString, std::shared_ptr<const scene::BoundarySurface>> files_;  ///< that were read, by name
   QString wanted_;                                                          ///< file that is being read
   std::shared_ptr<render::BoundaryView> view_;

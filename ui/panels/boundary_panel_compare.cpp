@@ -85,8 +85,17 @@ void BoundaryPanel::refreshCompared() {
   compared_ = file != files_.end() ? file->second
               : other ? std::make_shared<scene::BoundarySurface>(scene::boundarySurface(*other, name.toStdString()))
                       : nullptr;
-  view_->setCompared(compared_);
+  view_->setCompared(predicted_ ? predicted_ : compared_);
   viewport_->redrawGuest(true);
+}
+
+void BoundaryPanel::showPredicted(std::shared_ptr<const scene::BoundarySurface> surface) {
+  if (!surface && !predicted_) return;
+  predicted_ = std::move(surface);
+  view_->setCompared(predicted_ ? predicted_ : compared_);
+  if (const document::StudyState* state = document_.study(study()); state && surface_)
+    view_->setCaption(caption(*state).toStdString());
+  viewport_->redrawGuest(false);
 }
 
 }  // namespace pliant::panels

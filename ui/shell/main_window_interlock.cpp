@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "ui/panels/boundary_panel.hpp"
+#include "ui/panels/boundary_predictor.hpp"
 #include "ui/panels/cell_test_panel.hpp"
 #include "ui/panels/sheet_panel.hpp"
 #include "ui/panels/size_panel.hpp"
@@ -48,6 +49,7 @@ void MainWindow::makeInterlockDocks() {
 void MainWindow::connectInterlock() {
   auto* link =
       new InterlockLink(document_, quickJobs_, *viewport_, *boundary_, *travel_, *sizes_, *sheets_, *cellTests_, this);
+  new panels::BoundaryPredictor(document_, *cellPanel_, *boundary_, this);
   connect(actions_.find(QStringLiteral("cell.reset")), &QAction::triggered, link, &InterlockLink::leave);
   const auto run = [this](const std::string& study) {
     if (!study.empty()) session_.run({study});
