@@ -107,7 +107,7 @@ class PeakLocator {
       const double slope = lossGradient.dot(tangent_);
       const double distance = -slope / std::abs(bending());
       const double size = std::abs(distance);
-      const bool rounded = size <= roundingLength && size > 0.5 * std::exchange(previous, size);
+      const bool rounded = size <= roundingDistance && size > 0.5 * std::exchange(previous, size);
       if (bending() > 0 && (size <= exactEnough || rounded)) return true;
       // Where the amplitude is not yet concave, along it as far as one dares.
       const double limit = 0.3 * search.farthest;
@@ -172,7 +172,9 @@ class PeakLocator {
     return false;
   }
 
-  static constexpr double roundingLength = 1e-7;  ///< corrections below it that do not shrink are rounding
+  // Corrections and distances below these that do not shrink are rounding, of which a stiff sheet's tangent has most.
+  static constexpr double roundingLength = 1e-7;
+  static constexpr double roundingDistance = 1e-5;
 
   const HarmonicBalanceProblem& problem_;
   const PeakLagrangian& lagrangian_;
