@@ -34,7 +34,7 @@ ObjectiveValue placed(const HarmonicBalanceProblem& problem, double omega, const
 
 class PeakPlacement final : public DesignObjective {
  public:
-  explicit PeakPlacement(ResonancePlacement goal) : goal_(std::move(goal)) {}
+  explicit PeakPlacement(const ResonancePlacement& goal) : goal_(goal) {}
 
   ObjectiveValue evaluate(const HarmonicBalanceProblem& problem, const Vector&) const override {
     const std::vector<int> parameters = allParameters(problem.model());
@@ -144,8 +144,8 @@ class ModeAvoidance final : public DesignObjective {
 
 }  // namespace
 
-std::shared_ptr<const DesignObjective> makeResonancePlacement(ResonancePlacement goal) {
-  return std::make_shared<PeakPlacement>(std::move(goal));
+std::shared_ptr<const DesignObjective> makeResonancePlacement(const ResonancePlacement& goal) {
+  return std::make_shared<PeakPlacement>(goal);
 }
 
 std::shared_ptr<const DesignObjective> makeLinearResonancePlacement(LinearResonancePlacement goal) {

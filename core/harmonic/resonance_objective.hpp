@@ -19,7 +19,7 @@ struct ResonancePlacement {
 };
 /// The peak is followed from one design to the next, so designs should come in small steps, from one thread at a time;
 /// where it is lost, the curve is traced again.
-std::shared_ptr<const DesignObjective> makeResonancePlacement(ResonancePlacement goal);
+std::shared_ptr<const DesignObjective> makeResonancePlacement(const ResonancePlacement& goal);
 
 /// The same of a natural frequency about the static equilibrium: what a response curve has in the limit of small drives
 /// and little damping, for the price of an eigenvalue.

@@ -66,7 +66,7 @@ std::shared_ptr<const harmonic::DesignObjective> resonanceGoal(const Json& entry
   goal.motion.tolerance = options["tolerance"];
   goal.motion.maximumIterations = options["maximum_iterations"];
   goal.motion.maximumRampSteps = options["maximum_ramp_steps"];
-  return harmonic::makeResonancePlacement(std::move(goal));
+  return harmonic::makeResonancePlacement(goal);
 }
 
 }  // namespace pliant::scene
