@@ -43,7 +43,7 @@ SheetShape::SheetShape(geometry::SurfaceMesh mesh) : mesh_(std::move(mesh)) {
                    to = (corners.rowwise().maxCoeff() - low_) / bin_;
     for (int j = static_cast<int>(from[1]); j <= std::min(rows_ - 1, static_cast<int>(to[1])); ++j)
       for (int i = static_cast<int>(from[0]); i <= std::min(columns_ - 1, static_cast<int>(to[0])); ++i)
-        bins_[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<int>(t));
+        bins_[binOf(i, j)].push_back(static_cast<int>(t));
   }
 }
 
@@ -51,7 +51,7 @@ std::optional<SheetShape::Place> SheetShape::placeOf(const Vector2d& point) cons
   const Vector2d at = (point - low_) / bin_;
   const int i = std::clamp(static_cast<int>(std::floor(at[0])), 0, columns_ - 1);
   const int j = std::clamp(static_cast<int>(std::floor(at[1])), 0, rows_ - 1);
-  for (const int t : bins_[static_cast<std::size_t>(j * columns_ + i)]) {
+  for (const int t : bins_[binOf(i, j)]) {
     const auto& corners = mesh_.triangles[static_cast<std::size_t>(t)];
     const Vector2d own = inverses_[static_cast<std::size_t>(t)] * (point - mesh_.points.col(corners[0]).head<2>());
     const Vector3d shares(1 - own.sum(), own[0], own[1]);

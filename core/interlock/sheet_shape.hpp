@@ -38,6 +38,10 @@ class SheetShape {
   const geometry::SurfaceMesh& mesh() const { return mesh_; }
 
  private:
+  std::size_t binOf(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+
   geometry::SurfaceMesh mesh_;
   std::vector<Eigen::Matrix2d> inverses_;  ///< of each triangle's edges at rest [1/m]
   std::vector<double> areas_;

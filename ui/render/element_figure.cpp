@@ -10,7 +10,7 @@ namespace pliant::render {
 namespace {
 
 constexpr int tints = 3;
-constexpr double mostTriangles = 5e6;
+constexpr double mostTriangles = 3e6;
 /// By which pieces of a curve turn at most, from fine to coarse [rad].
 constexpr std::array<double, 5> cuts = {0.2, 0.35, 0.5, 0.8, 1.1};
 
@@ -34,6 +34,7 @@ void ElementFigure::show(const scene::MacroResult* result) {
   shown_ = result;
   for (const auto& shape : shapes_) renderer_->RemoveActor(shape->glyphs.actor());
   shapes_.clear();
+  triangleCount_ = 0;
   if (!result) return;
   const interlock::SheetDetail& detail = result->placed->detail;
   const interlock::UnitCell& cell = *result->cell;
@@ -51,6 +52,7 @@ void ElementFigure::show(const scene::MacroResult* result) {
     }
     Shape& shape = *shapes_.emplace_back(std::make_unique<Shape>());
     shape.glyphs.setShape(surface);
+    triangleCount_ += static_cast<long>(surface.triangles.size() * members[s].size());
     std::vector<Eigen::Matrix3d> rotations;
     for (const Eigen::Index i : members[s]) {
       const interlock::PatchElement& element = detail.elements[static_cast<std::size_t>(i)];
@@ -62,6 +64,10 @@ void ElementFigure::show(const scene::MacroResult* result) {
     renderer_->AddActor(shape.glyphs.actor());
   }
   setColors(colors_);
+}
+
+void ElementFigure::setVisible(bool visible) {
+  for (const auto& shape : shapes_) shape->glyphs.actor()->SetVisibility(visible);
 }
 
 void ElementFigure::setColors(const Palette& colors) {

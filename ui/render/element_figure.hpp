@@ -19,6 +19,9 @@ class ElementFigure {
   /// Null: none.
   void show(const scene::MacroResult* result);
   void setColors(const Palette& colors);
+  void setVisible(bool visible);
+  /// Of all instances.
+  long triangleCount() const { return triangleCount_; }
 
  private:
   struct Shape {
@@ -30,6 +33,7 @@ class ElementFigure {
   std::vector<std::unique_ptr<Shape>> shapes_;
   const scene::MacroResult* shown_ = nullptr;
   Palette colors_{};
+  long triangleCount_ = 0;
 };
 
 }  // namespace pliant::render

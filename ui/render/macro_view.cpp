@@ -21,6 +21,8 @@
 namespace pliant::render {
 namespace {
 
+/// Of elements, of which software draws a few pictures a second.
+constexpr long mostMovingTriangles = 300'000;
 constexpr double captionRoom = 84;  // device-independent pixels
 
 std::string numberText(double value) { return base::formatQuantity(value, {}); }
@@ -63,6 +65,7 @@ struct MacroView::Parts {
     key.addTo(stage.renderer());
     stage.legend().setTable(table);
     stage.onLayOut = [this] {
+      chooseDetail();
       placeDots();
       placeRing();
       key.layOut();
@@ -166,6 +169,16 @@ struct MacroView::Parts {
                                    : field == MacroField::bending ? bending
                                                                   : Eigen::VectorXd(stretch.cwiseMax(bending));
     sheet.setField(&values, table);
+  }
+
+  /// While the camera moves many elements are too many for software: the sheet stands for them.
+  void chooseDetail() {
+    if (!showsElements()) return;
+    vtkRenderWindow* window = stage.renderer()->GetRenderWindow();
+    const bool moves = window && window->GetMultiSamples() <= 1;  // see View::setFineQuality
+    const bool sheetInstead = moves && elements.triangleCount() > mostMovingTriangles;
+    for (vtkActor* actor : {sheet.actor(), edges.actor()}) actor->SetVisibility(sheetInstead);
+    elements.setVisible(!sheetInstead);
   }
 
   void placeDots() {
