@@ -41,6 +41,24 @@ DesignPoint DesignBranch::begin() {
   return point;
 }
 
+DesignPoint DesignBranch::beginAt(const Vector& z) {
+  DesignPoint point;
+  point.variables = firstVariables();
+  point.motion.omega = options_.omega;
+  point.motion.z = z;
+  point.problem = std::make_shared<const HarmonicBalanceProblem>(first_);
+  JacobianSolver solver(*point.problem);
+  Vector h;
+  solver.linearize(z, options_.omega, h, nullptr);
+  point.motion.report.iterations.push_back({0, h.norm() / first_.forceScale(options_.omega), 0, 0});
+  if (!solver.factorize()) return point;
+  point.motion.report.termination = base::TerminationType::converged;
+  point.motion.factorization = solver.factorization();
+  sign_ = point.motion.factorization->determinantSign();
+  complete(point);
+  return point;
+}
+
 bool DesignBranch::follow(DesignPoint& point, const Vector& variables) {
   const Vector start = point.variables, change = variables - start;
   double done = 0, share = 1;

@@ -32,6 +32,8 @@ class DesignBranch {
 
   /// The first design with its motion.
   DesignPoint begin();
+  /// The first design with a motion that is known: coefficients `z` that solve its equations.
+  DesignPoint beginAt(const Vector& z);
   /// Goes from a design that is known towards another; false if the branch does not lead there. `point` is the last
   /// design reached either way.
   bool follow(DesignPoint& point, const Vector& variables);

@@ -18,13 +18,20 @@ ObjectiveValue zeroValue(const HarmonicBalanceProblem& problem) {
           Vector::Zero(static_cast<Eigen::Index>(model.parameters.size()))};
 }
 
+/// All nodes by one along the first axis, whose kinetic energy tells the mass.
+Vector translationOfAll(const Model& model) {
+  Vector shift = Vector::Zero(model.coordinateCount());
+  for (int node = 0; node < model.nodeCount(); ++node) shift[node * model.dimension] = 1;
+  return shift;
+}
+
 class TotalMass final : public ConstraintQuantity {
  public:
   ObjectiveValue evaluate(const HarmonicBalanceProblem& problem, const Vector&) const override {
     ObjectiveValue result = zeroValue(problem);
     const Model& model = problem.model();
-    const Vector shift = translation(model);
-    result.value = shift.dot(model.massMatrix() * shift);
+    const Vector shift = translationOfAll(model);
+    result.value = totalMass(model);
     for (std::size_t i = 0; i < model.parameters.size(); ++i)
       result.byParameters[static_cast<Eigen::Index>(i)] =
           shift.dot(model.parameters[i]->derivative(model)->mass() * shift);
@@ -32,16 +39,7 @@ class TotalMass final : public ConstraintQuantity {
   }
 
   double exactValue(const HarmonicBalanceProblem& problem, const Vector&) const override {
-    const Vector shift = translation(problem.model());
-    return shift.dot(problem.model().massMatrix() * shift);
-  }
-
- private:
-  /// All nodes by one along the first axis, whose kinetic energy tells the mass.
-  static Vector translation(const Model& model) {
-    Vector shift = Vector::Zero(model.coordinateCount());
-    for (int node = 0; node < model.nodeCount(); ++node) shift[node * model.dimension] = 1;
-    return shift;
+    return totalMass(problem.model());
   }
 };
 
@@ -141,6 +139,11 @@ Vector farAway(const HarmonicBalanceProblem& problem) {
 }
 
 }  // namespace
+
+double totalMass(const Model& model) {
+  const Vector shift = translationOfAll(model);
+  return shift.dot(model.massMatrix() * shift);
+}
 
 std::shared_ptr<const ConstraintQuantity> makeTotalMass() { return std::make_shared<TotalMass>(); }
 

@@ -22,6 +22,7 @@ class ConstraintQuantity : public DesignObjective {
 };
 
 /// The mass of the whole model [kg].
+double totalMass(const Model& model);
 std::shared_ptr<const ConstraintQuantity> makeTotalMass();
 
 /// Triangles and tetrahedra whose strain counts.

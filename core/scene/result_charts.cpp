@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/scene/calibration_chart.hpp"
+#include "core/scene/design_space_chart.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/study.hpp"
@@ -299,6 +300,8 @@ std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem:
         cloths.push_back(found);
       else if (found.kind() == "calibration" && found.summary.contains("measurements"))
         for (ResultChart& chart : calibrationCharts(found.folder, found.summary)) charts.push_back(std::move(chart));
+      else if (found.kind() == "design_space" && found.summary.value("found_count", 0) > 0)
+        for (ResultChart& chart : designSpaceCharts(found.folder, found.summary)) charts.push_back(std::move(chart));
       else if (found.kind() == "harmonic" || found.kind() == "time")
         response.add(found);
       else if (!studies.empty())

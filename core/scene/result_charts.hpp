@@ -34,7 +34,8 @@ std::vector<std::string> responseQuantities();
 ///  - comparisons of harmonic balance with Newmark's method in two: the error over the harmonics (Fig. 2.3 of the
 ///    thesis), and the difference over equally many samples and steps (Fig. 2.15);
 ///  - cloth: energy over time (Fig. 3.4), unbalanced forces of drapes, violations of limits and gaps of projections;
-///  - calibrations: measured and fitted motions, see calibrationCharts.
+///  - calibrations: measured and fitted motions, see calibrationCharts;
+///  - design spaces: designs by two measures, and paths, see designSpaceCharts.
 /// Throws base::InputError if there is nothing to draw or `quantity` has another name.
 std::vector<ResultChart> resultCharts(const Scene& scene, const std::filesystem::path& folder,
                                       const std::vector<std::string>& studies, const std::string& quantity);

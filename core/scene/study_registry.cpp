@@ -2,6 +2,7 @@
 #include "core/scene/bending_studies.hpp"
 #include "core/scene/calibration_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
+#include "core/scene/design_space_studies.hpp"
 #include "core/scene/design_studies.hpp"
 #include "core/scene/element_design_study.hpp"
 #include "core/scene/harmonic_studies.hpp"
@@ -60,6 +61,7 @@ StudyRegistry::StudyRegistry()
                  {"backbone", makeBackboneStudy},
                  {"calibration", makeCalibrationStudy},
                  {"design", makeDesignStudy},
+                 {"design_space", makeDesignSpaceStudy},
                  {"linear_modes", makeLinearModesStudy},
                  {"linear_response", makeLinearResponseStudy},
                  {"time_integration", makeTimeIntegrationStudy},
