@@ -46,6 +46,8 @@ class StudyPanel : public QWidget {
   /// Puts what the study, or null, has found into the plot; whether there is something to see.
   virtual bool present(const document::StudyState* study) = 0;
   static bool isBusy(const document::StudyState& study);
+  /// Presents anew.
+  void refresh();
 
   /// Below the head; to be called once, at the end of a constructor.
   void setPlot(QWidget* plot);
@@ -60,7 +62,6 @@ class StudyPanel : public QWidget {
 
  private:
   void fillStudies();
-  void refresh();
   void chooseExport();
 
   std::vector<std::string> types_;

@@ -100,19 +100,31 @@ void LinePlot::redraw() {
   plot_->yAxis->ticker()->setTickCount(4);
   const auto& colors = isDark(palette()) ? lineColorsOnDark : lineColors;
   for (const PlotLine& line : chart_.lines) {
-    QCPGraph* graph = plot_->addGraph();
     const QColor color(colors[static_cast<std::size_t>(line.group) % colors.size()]);
-    graph->setPen(QPen(color, 1.8, line.dashed ? Qt::DashLine : Qt::SolidLine));
-    if (line.dots) graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssDisc, color, 5));
-    QVector<double> x, y;
+    const QPen pen(color, 1.8, line.dashed ? Qt::DashLine : Qt::SolidLine);
+    QVector<double> x, y, order;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       if (!std::isfinite(line.y[i]) || (chart_.logarithmicY && line.y[i] <= 0)) continue;
       x.append(line.x[i]);
       y.append(line.y[i]);
+      order.append(static_cast<double>(i));
     }
-    graph->setData(x, y, true);
-    graph->setName(line.name);
-    if (!line.name.isEmpty()) graph->addToLegend();
+    const QCPScatterStyle dots =
+        line.dots ? QCPScatterStyle(QCPScatterStyle::ssDisc, color, 5) : QCPScatterStyle(QCPScatterStyle::ssNone);
+    if (line.joined && std::is_sorted(x.begin(), x.end())) {
+      QCPGraph* graph = plot_->addGraph();
+      graph->setScatterStyle(dots);
+      graph->setData(x, y, true);
+    } else {  // paths go to and fro, which graphs over x do not
+      auto* curve = new QCPCurve(plot_->xAxis, plot_->yAxis);
+      curve->setLineStyle(line.joined ? QCPCurve::lsLine : QCPCurve::lsNone);
+      curve->setScatterStyle(dots);
+      curve->setData(order, x, y, true);
+    }
+    QCPAbstractPlottable* drawn = plot_->plottable(plot_->plottableCount() - 1);
+    drawn->setPen(pen);
+    drawn->setName(line.name);
+    if (!line.name.isEmpty()) drawn->addToLegend();
   }
   plot_->legend->setVisible(plot_->legend->itemCount() > 1);
   plot_->axisRect()->insetLayout()->setInsetAlignment(

@@ -16,7 +16,8 @@ struct PlotLine {
   std::vector<double> x, y;
   int group = 0;
   bool dashed = false;
-  bool dots = false;  ///< its points are marked
+  bool dots = false;   ///< its points are marked
+  bool joined = true;  ///< by a line
 };
 
 /// What a line plot shows; units stand in the labels.

@@ -18,6 +18,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "ui/panels/chart_panel.hpp"
 #include "ui/panels/design_panel.hpp"
 #include "ui/panels/energy_panel.hpp"
 #include "ui/panels/inspector.hpp"
@@ -152,6 +153,9 @@ void MainWindow::buildDocks() {
   QDockWidget* limits = add(tr("Stretch limits"), "limits", limits_, Qt::RightDockWidgetArea);
   QDockWidget* energies = add(tr("Energy and solver"), "energy", energies_, Qt::BottomDockWidgetArea);
   QDockWidget* design = add(tr("Design"), "design", design_, Qt::BottomDockWidgetArea);
+  charts_ = new panels::ChartPanel(document_, quickJobs_);
+  connect(
+      charts_, &panels::ChartPanel::runRequested, this, [this](const std::string& study) { session_.run({study}); });
   harmonicDocks_ = {plot, motion, modes, design};
   clothDocks_ = {limits, energies};
   tabifyDockWidget(docks_[1], limits);
@@ -165,6 +169,9 @@ void MainWindow::buildDocks() {
   plot->raise();
   makeCellDock();
   makePrintDock();
+  chartDock_ = add(tr("Charts"), "charts", charts_, Qt::BottomDockWidgetArea);
+  tabifyDockWidget(design, chartDock_);
+  plot->raise();
 }
 
 void MainWindow::buildStatusBar() {

@@ -22,6 +22,7 @@ namespace pliant::panels {
 class CellPanel;
 class BoundaryPanel;
 class CellTestPanel;
+class ChartPanel;
 class DesignPanel;
 class EnergyPanel;
 class LimitPanel;
@@ -91,6 +92,7 @@ class MainWindow final : public QMainWindow {
   panels::PrintPanel& print() { return *print_; }
   panels::SizePanel& sizes() { return *sizes_; }
   panels::SheetPanel& sheets() { return *sheets_; }
+  panels::ChartPanel& charts() { return *charts_; }
   panels::CellTestPanel& cellTests() { return *cellTests_; }
 
   /// See frameExport; a message says what came of it.
@@ -209,6 +211,8 @@ class MainWindow final : public QMainWindow {
   panels::TravelPanel* travel_ = nullptr;
   panels::SizePanel* sizes_ = nullptr;
   panels::SheetPanel* sheets_ = nullptr;
+  panels::ChartPanel* charts_ = nullptr;
+  QDockWidget* chartDock_ = nullptr;  ///< shown with scenes that have studies for it
   panels::CellTestPanel* cellTests_ = nullptr;
   LiveBar* liveBar_ = nullptr;
   MakeDialog* make_ = nullptr;

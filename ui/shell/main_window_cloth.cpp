@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "ui/panels/chart_panel.hpp"
 #include "ui/shell/cloth_link.hpp"
 #include "ui/shell/drape_gallery.hpp"
 #include "ui/shell/exporter.hpp"
@@ -172,6 +173,7 @@ void MainWindow::showFittingDocks() {
                         });
   for (QDockWidget* dock : harmonicDocks_) dock->setVisible(harmonic);
   for (QDockWidget* dock : clothDocks_) dock->setVisible(cloth);
+  chartDock_->setVisible(charts_->hasStudies());
   docks_[1]->raise();
   docks_[3]->raise();
   if (cloth)
