@@ -96,7 +96,7 @@ DesignSpace sampleDesignSpace(const HarmonicBalanceProblem& problem, const Desig
     const auto done = static_cast<int>(space.designs.size());
     // The first alone, which all others can be followed from.
     const int batch = done == 0 ? 1 : std::min(designsPerBatch, count - done);
-    context.setRange(static_cast<double>(done) / count, static_cast<double>(done + batch) / count);
+    context.setRange(options.progress * done / count, options.progress * (done + batch) / count);
     std::vector<SampledDesign> solved(static_cast<std::size_t>(batch));
     math::parallelFor(batch, [&](int i) {
       if (!context.cancelRequested()) solved[static_cast<std::size_t>(i)] = sampler.solve(done + i, space.designs);

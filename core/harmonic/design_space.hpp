@@ -15,6 +15,7 @@ struct DesignSpaceOptions {
   std::vector<int> parameters;  ///< that differ between designs, by index in `Model::parameters`
   int count = 100;              ///< designs, besides the first
   unsigned seed = 1;
+  double progress = 1;  ///< how much of the whole this is, from 0 on
   PeriodicMotionOptions motion;
 };
 

@@ -207,6 +207,16 @@ Json DesignResult::summary() const {
     json["stability"] = nameOf(stability.state);
     json["probes"] = probesOf(*this);
     if (!paths.empty()) json["paths"] = pathsOf(*this);
+    if (!starts.empty()) {
+      Json list = Json::array();
+      for (const harmonic::DesignStart& start : starts)
+        list.push_back({{"objective_before", start.objective},
+                        {"objective", start.reached},
+                        {"designs", start.designs},
+                        {"termination", base::toString(start.termination)}});
+      json["starts"] = list;
+      json["best_start"] = bestStart;
+    }
     if (!constraints.list.empty()) {
       json["constraints"] = constraintsOf(constraints);
       json["constraint_violation"] = constraints.optimality.violation;

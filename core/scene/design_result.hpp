@@ -2,6 +2,7 @@
 
 #include "core/harmonic/constrained_design.hpp"
 #include "core/harmonic/floquet_stability.hpp"
+#include "core/harmonic/multi_start.hpp"
 #include "core/scene/study.hpp"
 
 namespace pliant::scene {
@@ -31,6 +32,10 @@ class DesignResult final : public Result {
   /// Designs, their motions, and how they were found. The history is empty if the first design has no motion, and
   /// shorter than the way while the study runs.
   harmonic::InverseDesignResult design;
+
+  /// Where the optimiser began, the scene's own design first, and which one led to the best; empty if it was one alone.
+  std::vector<harmonic::DesignStart> starts;
+  int bestStart = 0;
 
   /// Set when the study ends.
   DesignConstraints constraints;

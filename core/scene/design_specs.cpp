@@ -86,6 +86,12 @@ std::vector<base::ParameterSpec> designKeys() {
                     1, 1000)),
       list("objectives", "What is to be reached; several are summed up.", objectives(), 1, 1000),
       designConstraints(),
+      withDefault(integer("starts", "",
+                          "Designs to begin with, the best result of which counts: the scene's own and the most "
+                          "promising of four times as many between the bounds. Without constraints.",
+                          1, 1000),
+                  1),
+      withDefault(integer("seed", "", "Of the designs between the bounds.", 0, 1'000'000'000), 1),
       withDefault(integer("iterations", "", "Iterations of the optimiser.", 0, 100'000), 200),
       positiveNumber(
           "objective_tolerance", "",

@@ -169,6 +169,8 @@ class DesignStudy final : public Study {
     DesignReader reader(scene, *designed, options_);
     parameters_ = reader.parameters();
     objective_ = reader.objective(parameters_, paths_);
+    if (options_.contains("constraints") && options_["starts"] > 1)
+      throw InputError(placeOfStudy(scene, options_) + "/starts", "A design with constraints begins with one design.");
     if (options_.contains("constraints"))
       constraints_ =
           readDesignConstraints(*designed, options_["constraints"], placeOfStudy(scene, options_) + "/constraints");
@@ -190,6 +192,7 @@ class DesignStudy final : public Study {
     result->parameters = parameters_;
     result->paths = paths_;
     const auto onIterate = [&](const harmonic::DesignIterate& design) {
+      if (design.iteration == 0) result->design.history.clear();  // another start
       result->design.history.push_back(design);
       result->design.evaluations = design.evaluations;
       result->design.solves = design.solves;
@@ -200,7 +203,13 @@ class DesignStudy final : public Study {
       observe(std::move(snapshot));
     };
     harmonic::HarmonicBalanceProblem problem(model_, math::HarmonicBasis(result->harmonics, result->samples));
-    if (constraints_.empty()) {
+    if (const int starts = options_["starts"]; starts > 1) {
+      auto found = harmonic::designFromSeveralStarts(
+          problem, *objective_, designOptions(), starts, options_["seed"], context, onIterate);
+      result->design = std::move(found.design);
+      result->starts = std::move(found.starts);
+      result->bestStart = found.best;
+    } else if (constraints_.empty()) {
       result->design = harmonic::designInversely(std::move(problem), *objective_, designOptions(), context, onIterate);
     } else {
       auto found = harmonic::designWithConstraints(

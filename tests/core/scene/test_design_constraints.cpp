@@ -75,6 +75,7 @@ class TestDesignConstraints : public QObject {
   void warnsIfTheyAreBroken();
   void refusesWrongInput_data();
   void refusesWrongInput();
+  void refusesSeveralStarts();
 };
 
 /// All masses count: 0.01 kg of the sheet, 0.2 kg at its corner.
@@ -183,6 +184,16 @@ void TestDesignConstraints::refusesWrongInput() {
   } catch (const base::InputError& error) {
     QCOMPARE(QString::fromStdString(error.location()), place);
     QVERIFY(QString::fromStdString(error.problem()).endsWith('.'));
+  }
+}
+
+void TestDesignConstraints::refusesSeveralStarts() {
+  try {
+    run(sceneWith(
+        Json::array({{{"type", "total_mass"}, {"at_most", 0.75}}}), [](Json& study) { study["starts"] = 2; }));
+    QFAIL("nothing was refused");
+  } catch (const base::InputError& error) {
+    QCOMPARE(error.location(), "test.json: /studies/0/starts");
   }
 }
 
