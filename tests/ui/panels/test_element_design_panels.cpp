@@ -130,7 +130,7 @@ class TestElementDesignPanels : public QObject {
     scene::Scene scene = scene::Scene::parse(designScene, ".", "design");
     auto model = scene::buildModel(scene);
     document_->adopt({std::move(scene), std::move(model)}, {});
-    QVERIFY(panels::TravelPanel::shows("element_design") && !travel.take()->isVisible());
+    QVERIFY(travel.shows("element_design") && !travel.take()->isVisible());
     run("ten per cent");
     QTRY_VERIFY(travel.take()->isVisible() && travel.take()->isEnabled());
     QCOMPARE(travel.plot()->curves().curves.size(), std::size_t{3});
