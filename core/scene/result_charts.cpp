@@ -9,8 +9,8 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/scene/calibration_chart.hpp"
-#include "core/scene/design_space_chart.hpp"
 #include "core/scene/csv.hpp"
+#include "core/scene/design_space_chart.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/study.hpp"
 

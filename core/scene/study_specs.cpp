@@ -147,10 +147,11 @@ const std::vector<ParameterSpec>& studySpecs() {
                       "Changes design parameters within their bounds so that the motion at one frequency comes nearer "
                       "to what is wanted (thesis 2.4.3).",
                       designKeys(), startKeys()),
-        harmonicStudy("design_space",
-                      "Motions of many designs, spread evenly between the bounds of the parameters: which can be reached, "
-                      "and what one good costs of another (thesis 2.5.5).",
-                      designSpaceKeys(), startKeys()),
+        harmonicStudy(
+            "design_space",
+            "Motions of many designs, spread evenly between the bounds of the parameters: which can be reached, "
+            "and what one good costs of another (thesis 2.5.5).",
+            designSpaceKeys(), startKeys()),
         harmonicStudy("calibration",
                       "Fits parameters, such as damping, to measured steady motions, with confidence intervals (thesis "
                       "2.5.2).",

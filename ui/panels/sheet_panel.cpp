@@ -53,6 +53,7 @@ SheetPanel::SheetPanel(document::Document& document, QWidget* parent)
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 1);
   setPlot(split);
+  setMinimumWidth(320);  // of its own, so that the docks beside it keep their width
 }
 
 void SheetPanel::makeControls() {
@@ -69,15 +70,35 @@ void SheetPanel::makeControls() {
   connect(fields_, &QComboBox::activated, this, &SheetPanel::viewChanged);
   plots_ = combo(tr("What the plot shows"), {tr("Nearness to limits"), tr("Deflection of all sheets")});
   connect(plots_, &QComboBox::activated, this, &SheetPanel::refreshPlot);
+  auto* families = addButton(tr("Series"), tr("Run this sheet finer, or with a stiffer base, to compare"));
+  auto* menu = new QMenu(families);
+  menu->addAction(tr("4 and 16 times as many triangles (Fig. 4.10)"), this, [this] { addFamily(Family::refinement); });
+  menu->addAction(tr("4 and 16 times Young's modulus (Fig. 4.11)"), this, [this] { addFamily(Family::youngModulus); });
+  families->setMenu(menu);
+  families->setPopupMode(QToolButton::InstantPopup);
+}
+
+QWidget* SheetPanel::makeSpace() {
+  auto* widget = new QWidget;
+  spaces_ = new QComboBox;
+  spaces_->addItems({tr("Stretch"), tr("Bending")});
+  spaces_->setToolTip(tr("Which strains of all triangles are shown, within their limits"));
+  spaces_->setFixedHeight(28);
+  connect(spaces_, &QComboBox::activated, this, &SheetPanel::refreshSpace);
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(0, 0, 8, 4);
+  row->setSpacing(4);
+  row->addWidget(spaces_);
+  row->addStretch();
   clicks_ = new QButtonGroup(this);
-  const auto click = [this](Clicks clicks, const QString& text, const QString& tooltip) {
+  const auto click = [this, row](Clicks clicks, const QString& text, const QString& tooltip) {
     auto* made = new QToolButton;
     made->setText(text);
     made->setToolTip(tooltip);
     made->setCheckable(true);
     made->setFixedHeight(28);
     clicks_->addButton(made, static_cast<int>(clicks));
-    switches()->addWidget(made);
+    row->addWidget(made);
   };
   click(Clicks::read, tr("Read"), tr("A click at the sheet reads a triangle out"));
   click(Clicks::clamp, tr("Clamp"), tr("A click at the sheet clamps a node, or frees it again"));
@@ -92,21 +113,7 @@ void SheetPanel::makeControls() {
   force_->setSuffix(tr(" N up"));
   force_->setToolTip(tr("The force of a load that a click adds; below 0 it pulls down"));
   force_->setFixedHeight(28);
-  switches()->addWidget(force_);
-  auto* families = addButton(tr("Series"), tr("Run this sheet finer, or with a stiffer base, to compare"));
-  auto* menu = new QMenu(families);
-  menu->addAction(tr("4 and 16 times as many triangles (Fig. 4.10)"), this, [this] { addFamily(Family::refinement); });
-  menu->addAction(tr("4 and 16 times Young's modulus (Fig. 4.11)"), this, [this] { addFamily(Family::youngModulus); });
-  families->setMenu(menu);
-  families->setPopupMode(QToolButton::InstantPopup);
-}
-
-QWidget* SheetPanel::makeSpace() {
-  auto* widget = new QWidget;
-  spaces_ = new QComboBox;
-  spaces_->addItems({tr("Stretch of all triangles"), tr("Bending of all triangles")});
-  spaces_->setToolTip(tr("Which limits the triangles are shown in"));
-  connect(spaces_, &QComboBox::activated, this, &SheetPanel::refreshSpace);
+  row->addWidget(force_);
   spaceViewport_ = new viewport::Viewport;
   spaceViewport_->setAccessibleName(tr("Strains of the triangles within their limits"));
   render::BoundaryStyle style;
@@ -123,7 +130,7 @@ QWidget* SheetPanel::makeSpace() {
   auto* column = new QVBoxLayout(widget);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(spaces_, 0, Qt::AlignLeft);
+  column->addLayout(row);
   column->addWidget(spaceViewport_, 1);
   column->addWidget(readout_);
   return widget;
