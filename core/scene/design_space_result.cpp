@@ -22,7 +22,7 @@ namespace {
 
 constexpr int pathInstants = 64;
 
-std::string_view nameOf(MotionOrigin origin) {
+std::string_view motionOriginName(MotionOrigin origin) {
   switch (origin) {
     case MotionOrigin::followed: return "followed";
     case MotionOrigin::anew: return "anew";
@@ -51,7 +51,7 @@ std::string designTable(const DesignSpaceResult& result) {
   const std::vector<int> front = result.front();
   for (std::size_t i = 0; i < result.space.designs.size(); ++i) {
     const SampledDesign& design = result.space.designs[i];
-    csv.add(static_cast<long>(i)).add(nameOf(design.origin));
+    csv.add(static_cast<long>(i)).add(motionOriginName(design.origin));
     if (design.from >= 0)
       csv.add(design.from);
     else
