@@ -164,7 +164,7 @@ ClosestArcs swapped(ClosestArcs closest) {
 
 ClosestArcs closestArcs(const PlacedPart& a, const PlacedPart& b, const Vector3d& offset, ArcPlaces& places) {
   if (a.part->kind != PartKind::arc) {
-    const ClosestArcs closest = swapped(betweenArcAndSimplex(b, a, -offset, places));
+    ClosestArcs closest = swapped(betweenArcAndSimplex(b, a, -offset, places));
     std::swap(places.parameterA, places.parameterB);
     return closest;
   }
