@@ -1,11 +1,10 @@
 #include "core/scene/detail_export.hpp"
 
 #include "core/base/units.hpp"
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/print_files.hpp"
 #include "core/interlock/element_body.hpp"
 #include "core/math/parallel.hpp"
 #include "core/scene/input_error_location.hpp"
+#include "core/scene/print_bodies.hpp"
 
 namespace pliant::scene {
 
@@ -33,36 +32,12 @@ PatchReport exportPlaced(const MacroResult& result, double tolerance, double min
       bodies[index] = interlock::ElementBody(shapes[index]).mesh(tolerance);
     });
   });
-  std::vector<geometry::SurfaceMesh> meshes;
-  std::vector<double> volumes;
-  for (const geometry::BodyMesh& body : bodies) {
-    report.deviation = std::max(report.deviation, body.fit.deviation);
-    report.filled = std::max(report.filled, body.fit.filled);
-    volumes.push_back(enclosedVolume(body.mesh));
-    meshes.push_back(body.mesh);
-  }
   std::vector<geometry::BodyCopy> copies;
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < detail.elements.size(); ++i) {
-    const int shape = result.cell->elements[static_cast<std::size_t>(detail.elements[i].element)].shape;
-    const auto index = static_cast<std::size_t>(shape);
-    const geometry::BodyCopy& copy = copies.emplace_back(
-        geometry::BodyCopy{shape, detail.state.rotations[i], detail.state.positions.col(static_cast<Eigen::Index>(i))});
-    report.triangles += static_cast<long>(meshes[index].triangles.size());
-    report.volume += volumes[index];
-    const Eigen::Matrix3Xd points = copy.rotation * meshes[index].points;
-    box.extend(points.rowwise().minCoeff() + copy.position).extend(points.rowwise().maxCoeff() + copy.position);
-  }
-  report.size = box.sizes();
-  for (geometry::BodyCopy& copy : copies) copy.position -= box.min();
+  for (std::size_t i = 0; i < detail.elements.size(); ++i)
+    copies.push_back({result.cell->elements[static_cast<std::size_t>(detail.elements[i].element)].shape,
+                      detail.state.rotations[i], detail.state.positions.col(static_cast<Eigen::Index>(i))});
   context.reportProgress(0.5);
-  const std::string ending = file.extension().string();
-  if (ending == ".stl")
-    report.cancelled = !writePrintStl(meshes, copies, file, &context);
-  else if (ending == ".3mf")
-    writePrint3mf(meshes, copies, file);
-  else
-    geometry::writeMesh(assembled(meshes, copies), file);
+  writeBodies(bodies, std::move(copies), file, report, context);
   return report;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/print_files.hpp"
 #include "core/interlock/element_body.hpp"
 #include "core/interlock/fabric_patch.hpp"
 #include "core/math/parallel.hpp"
@@ -15,6 +13,7 @@
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/outline_file.hpp"
+#include "core/scene/print_bodies.hpp"
 
 namespace pliant::scene {
 
@@ -143,35 +142,11 @@ PatchReport exportPatch(const Scene& scene, const PatchRequest& request, const s
   context.reportProgress(0.5);
   report.cancelled = context.cancelRequested();
   if (report.cancelled) return report;
-  std::vector<geometry::SurfaceMesh> meshes;
-  std::vector<double> volumes;
-  for (const geometry::BodyMesh& body : bodies) {
-    report.deviation = std::max(report.deviation, body.fit.deviation);
-    report.filled = std::max(report.filled, body.fit.filled);
-    volumes.push_back(body.mesh.triangles.empty() ? 0 : enclosedVolume(body.mesh));
-    meshes.push_back(body.mesh);
-  }
   std::vector<geometry::BodyCopy> copies;
-  Eigen::AlignedBox3d box;
-  for (const interlock::PatchElement& element : patch.elements) {
-    const int shape = fabric.cell.elements[element.element].shape;
-    const geometry::BodyCopy& copy = copies.emplace_back(geometry::BodyCopy{
-        shape, fabric.state.rotations[element.element], placeOf(fabric.cell, fabric.state, element)});
-    report.triangles += static_cast<long>(meshes[shape].triangles.size());
-    report.volume += volumes[shape];
-    const Eigen::Matrix3Xd points = copy.rotation * meshes[shape].points;
-    box.extend(points.rowwise().minCoeff() + copy.position).extend(points.rowwise().maxCoeff() + copy.position);
-  }
-  report.size = box.sizes();
-  for (geometry::BodyCopy& copy : copies) copy.position -= box.min();
-
-  const std::string ending = file.extension().string();
-  if (ending == ".stl")
-    report.cancelled = !writePrintStl(meshes, copies, file, &context);
-  else if (ending == ".3mf")
-    writePrint3mf(meshes, copies, file);
-  else
-    geometry::writeMesh(assembled(meshes, copies), file);
+  for (const interlock::PatchElement& element : patch.elements)
+    copies.push_back({fabric.cell.elements[element.element].shape, fabric.state.rotations[element.element],
+                      placeOf(fabric.cell, fabric.state, element)});
+  writeBodies(bodies, std::move(copies), file, report, context);
   return report;
 }
 
