@@ -359,20 +359,24 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, V
 
 Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
                                                    const mechanics::DesignParameter& parameter) const {
+  return parameterDerivative(z, driveFrequency, *parameter.derivative(model()));
+}
+
+Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
+                                                   const mechanics::ModelDerivative& change) const {
   const Structure& s = *structure_;
   const double omega = driveFrequency / s.drivePeriods;
   const Model& m = *s.model;
-  const std::unique_ptr<mechanics::ModelDerivative> change = parameter.derivative(m);
   const int samples = s.basis.samples();
   samplePositions(z, driveFraction_, workspace_->positions);
   const Matrix positions = workspace_->positions.topRows(samples);
   Matrix loads(samples, m.coordinateCount()), moved(samples, m.coordinateCount());
   for (int i = 0; i < samples; ++i) {
-    loads.row(i) = change->externalForce(s.driveAngle(i)).transpose();
-    moved.row(i) = change->prescribed(s.driveAngle(i)).transpose();
+    loads.row(i) = change.externalForce(s.driveAngle(i)).transpose();
+    moved.row(i) = change.prescribed(s.driveAngle(i)).transpose();
   }
-  Matrix gradients = change->gradient(positions);
-  Matrix inertial = inertialCoefficients(z, freeColumns(m, change->mass()));
+  Matrix gradients = change.gradient(positions);
+  Matrix inertial = inertialCoefficients(z, freeColumns(m, change.mass()));
   if (!moved.isZero(0)) {
     gradients += stiffnessTimes(m, positions, moved);
     inertial += s.basis.analysis() * moved * s.massToFree;
@@ -382,9 +386,9 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double drive
                       m.massDamping * omega * s.basis.derivative(inertial) + elastic +
                       m.stiffnessDamping * omega * s.basis.derivative(elastic) -
                       scaledLoads(s.basis.analysis() * loads(Eigen::all, m.dofs.freeCoordinates), driveFraction_);
-  if (const double rate = change->massDamping(); rate != 0)
+  if (const double rate = change.massDamping(); rate != 0)
     derivative += rate * omega * s.basis.derivative(inertialCoefficients(z, s.massToFree));
-  if (const double rate = change->stiffnessDamping(); rate != 0) {
+  if (const double rate = change.stiffnessDamping(); rate != 0) {
     evaluate(z, false);
     const Matrix forces = workspace_->gradient.topRows(samples)(Eigen::all, m.dofs.freeCoordinates);
     derivative += rate * omega * s.basis.derivative(s.basis.analysis() * forces);

@@ -120,6 +120,7 @@ class HarmonicBalanceProblem {
                  const StressSource* stresses = nullptr) const;
   /// ∂h/∂p, size(): with all of the drive, and with the coordinates that are not free moving as p moves them.
   Vector parameterDerivative(const Vector& z, double omega, const mechanics::DesignParameter& parameter) const;
+  Vector parameterDerivative(const Vector& z, double omega, const mechanics::ModelDerivative& change) const;
 
   /// Positions of every coordinate at the N samples: N x coordinates [m].
   Matrix trajectories(const Vector& z) const;

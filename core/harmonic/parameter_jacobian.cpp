@@ -12,14 +12,15 @@ ParameterJacobian::ParameterJacobian(const HarmonicBalanceProblem& problem, cons
       omega_(omega / problem.drivePeriods()),
       parameters_(std::move(parameters)),
       positions_(problem.trajectories(z)) {
-  int columns = 0;
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    columnOf_.push_back(dynamic_cast<const ElasticDerivative*>(derivativeOf(i).get()) ? -1 : columns++);
-  columns_.resize(problem.size(), columns);
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    if (columnOf_[i] >= 0)
-      columns_.col(columnOf_[i]) =
-          problem.parameterDerivative(z, omega, *problem.model().parameters[static_cast<std::size_t>(parameters_[i])]);
+  std::vector<Vector> columns;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const auto derivative = derivativeOf(i);
+    const bool few = dynamic_cast<const ElasticDerivative*>(derivative.get());
+    columnOf_.push_back(few ? -1 : static_cast<int>(columns.size()));
+    if (!few) columns.push_back(problem.parameterDerivative(z, omega, *derivative));
+  }
+  columns_.resize(problem.size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) columns_.col(static_cast<Eigen::Index>(c)) = columns[c];
 }
 
 std::unique_ptr<mechanics::ModelDerivative> ParameterJacobian::derivativeOf(std::size_t i) const {
