@@ -40,9 +40,9 @@ class FamilyDerivative final : public ModelDerivative {
     return sum;
   }
 
-  Vector externalForce(double tau) const override {
-    Vector sum = ModelDerivative::externalForce(tau);
-    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->externalForce(tau);
+  Vector externalForce(math::Phases phases) const override {
+    Vector sum = ModelDerivative::externalForce(phases);
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->externalForce(phases);
     return sum;
   }
 
@@ -58,10 +58,10 @@ class FamilyDerivative final : public ModelDerivative {
     return sum;
   }
 
-  Vector prescribed(double tau) const override {
-    Vector sum = ModelDerivative::prescribed(tau);
+  Vector prescribed(math::Phases phases) const override {
+    Vector sum = ModelDerivative::prescribed(phases);
     const Vector free = Vector::Zero(model_.dofs.freeCount());
-    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->configuration(free, tau);
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->configuration(free, phases);
     return sum;
   }
 
