@@ -24,13 +24,36 @@ constexpr std::array<Stencil, 3> stencils = {
     Stencil{{0, 1, 2, 3, 4}, {-25. / 12, 48. / 12, -36. / 12, 16. / 12, -3. / 12}},
     Stencil{{0, -1, -2, -3, -4}, {25. / 12, -48. / 12, 36. / 12, -16. / 12, 3. / 12}}};
 
+/// A model with another value of a parameter, and its weight in a derivative.
+struct Neighbour {
+  double weight;
+  std::shared_ptr<const Model> model;
+};
+
+std::vector<Neighbour> neighboursWith(const Stencil& stencil, const DesignParameter& parameter, const Model& model,
+                                      double relativeStep) {
+  const double middle = parameter.value(model), range = parameter.maximum(model) - parameter.minimum(model);
+  const double step = relativeStep * std::max(std::abs(middle), 0.1 * range);
+  std::vector<Neighbour> neighbours;
+  for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
+    if (stencil.weights[i] != 0)
+      neighbours.push_back({stencil.weights[i] / step, std::make_shared<const Model>(parameter.withValue(
+                                                           model, middle + stencil.offsets[i] * step))});
+  return neighbours;
+}
+
+std::vector<Neighbour> neighboursOf(const DesignParameter& parameter, const Model& model, double relativeStep = 2e-3) {
+  for (const Stencil& stencil : stencils) try {
+      return neighboursWith(stencil, parameter, model, relativeStep);
+    } catch (const base::InputError&) {
+      // There are no models a little farther; the last stencil's error is the one to report.
+      if (&stencil == &stencils.back()) throw;
+    }
+  return {};
+}
+
 class FamilyDerivative final : public ModelDerivative {
  public:
-  struct Neighbour {
-    double weight;
-    std::shared_ptr<const Model> model;
-  };
-
   FamilyDerivative(const Model& model, std::vector<Neighbour> neighbours)
       : ModelDerivative(model), neighbours_(std::move(neighbours)) {}
 
@@ -111,13 +134,7 @@ class FamilyMember final : public JointParameter {
   }
 
   std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
-    for (const Stencil& stencil : stencils) try {
-        return std::make_unique<FamilyDerivative>(model, neighbours(model, stencil));
-      } catch (const base::InputError&) {
-        // The family ends nearby; the last stencil's error is the one to report.
-        if (&stencil == &stencils.back()) throw;
-      }
-    return nullptr;
+    return std::make_unique<FamilyDerivative>(model, neighboursOf(*this, model));
   }
 
  private:
@@ -136,24 +153,20 @@ class FamilyMember final : public JointParameter {
     return values;
   }
 
-  std::vector<FamilyDerivative::Neighbour> neighbours(const Model& model, const Stencil& stencil) const {
-    constexpr double relativeStep = 2e-3;
-    const double middle = value(model);
-    const double step = relativeStep * std::max(std::abs(middle), 0.1 * (parameter_.maximum - parameter_.minimum));
-    std::vector<FamilyDerivative::Neighbour> neighbours;
-    for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
-      if (stencil.weights[i] != 0)
-        neighbours.push_back({stencil.weights[i] / step,
-                              std::make_shared<const Model>(withValue(model, middle + stencil.offsets[i] * step))});
-    return neighbours;
-  }
-
   int index_;
   FamilyParameter parameter_;
   std::shared_ptr<const ModelFamily> family_;
 };
 
 }  // namespace
+
+double derivativeOf(const std::function<double(const Model&)>& number, const DesignParameter& parameter,
+                    const Model& model, double relativeStep) {
+  double sum = 0;
+  for (const Neighbour& neighbour : neighboursOf(parameter, model, relativeStep))
+    sum += neighbour.weight * number(*neighbour.model);
+  return sum;
+}
 
 std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,
                                                            std::shared_ptr<const ModelFamily> family) {

@@ -27,4 +27,9 @@ struct FamilyParameter {
 std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,
                                                            std::shared_ptr<const ModelFamily> family);
 
+/// How a number that the model alone decides changes with a parameter of any kind: differences of order 4 as well, in
+/// steps of `relativeStep` times the value (or a tenth of the range, whichever is larger).
+double derivativeOf(const std::function<double(const Model&)>& number, const DesignParameter& parameter,
+                    const Model& model, double relativeStep);
+
 }  // namespace pliant::mechanics
