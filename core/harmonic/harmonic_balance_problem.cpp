@@ -8,6 +8,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/harmonic_jacobian.hpp"
 #include "core/harmonic/steady_drive.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 
 namespace pliant::harmonic {
 
@@ -359,6 +360,11 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, V
 
 Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
                                                    const mechanics::DesignParameter& parameter) const {
+  if (mechanics::isDriveFrequency(parameter)) {
+    Vector h, byFrequency;
+    linearize(z, driveFrequency, h, nullptr, &byFrequency);
+    return withoutLeftOut(std::move(byFrequency));
+  }
   const Structure& s = *structure_;
   const double omega = driveFrequency / s.drivePeriods;
   const Model& m = *s.model;
