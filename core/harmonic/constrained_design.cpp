@@ -1,6 +1,7 @@
 #include "core/harmonic/constrained_design.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/design_branch.hpp"
@@ -50,7 +51,7 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
         const DesignConstraint& constraint = constraintAt(i);
         result.constraints[i] = constraint.quantity->evaluate(*last_.problem, last_.motion.z).value / constraint.scale;
       }
-      return result;
+      return withValue(std::move(result));
     }
     result.jacobian.resize(count, variables.size());
     const DesignGradient objective = gradientOf(objective_);
@@ -68,7 +69,7 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
       result.jacobian.row(i) = at.gradient.cwiseProduct(branch_.ranges()).transpose() / constraintAt(i).scale;
     }
     base_ = last_;
-    return result;
+    return withValue(std::move(result));
   }
 
   const MetDesign& designAt(const Vector& variables) const {
@@ -78,6 +79,12 @@ class ConstrainedOnBranch final : public solvers::ConstrainedFunction {
   int failures() const { return failures_; }
 
  private:
+  /// None if something is infinite, as where a design has no resonance to be placed.
+  std::optional<ConstrainedValue> withValue(ConstrainedValue value) {
+    if (std::isfinite(value.objective) && value.constraints.allFinite()) return value;
+    ++failures_;
+    return std::nullopt;
+  }
   const DesignConstraint& constraintAt(Eigen::Index i) const { return constraints_[static_cast<std::size_t>(i)]; }
   DesignGradient gradientOf(const DesignObjective& quantity) const {
     return designGradient(*last_.problem, last_.motion, quantity, options_.parameters, *last_.byParameters);
@@ -184,7 +191,7 @@ ConstrainedDesignResult designWithConstraints(HarmonicBalanceProblem problem, co
   DesignRecorder recorder(problem, constraints, branch, onBranch, bounds, onIterate, result);
   const auto before = onBranch.evaluate(start, true);
   if (!before) {
-    report.message = "The first design stands at a fold, where its motion has no derivative.";
+    report.message = "The first design has no derivatives: its motion stands at a fold, or its objective is infinite.";
     return result;
   }
   recorder.add(start, *before, 0, 1);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/harmonic/motion_corrector.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 
 namespace pliant::harmonic {
 
@@ -29,10 +30,14 @@ Vector DesignBranch::firstVariables() const {
   return variables;
 }
 
+double DesignBranch::omegaOf(const HarmonicBalanceProblem& problem) const {
+  return mechanics::driveFrequency(problem.model()).value_or(options_.omega);
+}
+
 DesignPoint DesignBranch::begin() {
   DesignPoint point;
   point.variables = firstVariables();
-  point.motion = solvePeriodicMotion(first_, options_.omega, options_.motion, context_);
+  point.motion = solvePeriodicMotion(first_, omegaOf(first_), options_.motion, context_);
   point.problem = std::make_shared<const HarmonicBalanceProblem>(first_);
   addCost(first_.cost());
   if (point.motion.report.converged()) complete(point);
@@ -44,13 +49,13 @@ DesignPoint DesignBranch::begin() {
 DesignPoint DesignBranch::beginAt(const Vector& z) {
   DesignPoint point;
   point.variables = firstVariables();
-  point.motion.omega = options_.omega;
+  point.motion.omega = omegaOf(first_);
   point.motion.z = z;
   point.problem = std::make_shared<const HarmonicBalanceProblem>(first_);
   JacobianSolver solver(*point.problem);
   Vector h;
-  solver.linearize(z, options_.omega, h, nullptr);
-  point.motion.report.iterations.push_back({0, h.norm() / first_.forceScale(options_.omega), 0, 0});
+  solver.linearize(z, point.motion.omega, h, nullptr);
+  point.motion.report.iterations.push_back({0, h.norm() / first_.forceScale(point.motion.omega), 0, 0});
   if (!solver.factorize()) return point;
   point.motion.report.termination = base::TerminationType::converged;
   point.motion.factorization = solver.factorization();
@@ -85,7 +90,7 @@ std::optional<DesignPoint> DesignBranch::tryStep(const DesignPoint& from, const 
   const auto problem = std::make_shared<HarmonicBalanceProblem>(
       std::move(model), first_.basis(), first_.drivePeriods(), first_.coordinateHarmonics());
   point.problem = problem;
-  point.motion.omega = options_.omega;
+  point.motion.omega = omegaOf(*problem);
 
   const math::SparseFactorization& factors = *from.motion.factorization;
   const Vector change = ranges_.cwiseProduct(variables - from.variables);
@@ -120,7 +125,7 @@ bool DesignBranch::correctByNewton(DesignPoint& point, StressSource stresses) {
   options.maximumIterations = std::min(options.maximumIterations, mostIterations);
   JacobianSolver solver(*point.problem);
   point.motion.report =
-      correctMotion(*point.problem, solver, options_.omega, options, std::move(stresses), point.motion.z, context_);
+      correctMotion(*point.problem, solver, point.motion.omega, options, std::move(stresses), point.motion.z, context_);
   if (solver.factorization()) point.motion.factorization = solver.factorization();
   return point.motion.report.converged();
 }
@@ -131,12 +136,12 @@ bool DesignBranch::correctWithOldFactors(DesignPoint& point, double swing) {
   constexpr int mostCorrections = 40;
   constexpr double slowest = 0.8;  // ratio of successive corrections
   const HarmonicBalanceProblem& problem = *point.problem;
-  const double scale = problem.forceScale(options_.omega);
+  const double omega = point.motion.omega, scale = problem.forceScale(omega);
   double previous = swing;
   base::SolverReport& report = point.motion.report;
   report = {};
   for (int i = 0; i < mostCorrections && !context_.cancelRequested(); ++i) {
-    const Vector residual = problem.residual(point.motion.z, options_.omega);
+    const Vector residual = problem.residual(point.motion.z, omega);
     const Vector correction = problem.expanded(point.motion.factorization->solve(problem.restricted(residual)));
     ++problem.cost().solves;
     const double size = correction.norm();
@@ -154,7 +159,7 @@ bool DesignBranch::correctWithOldFactors(DesignPoint& point, double swing) {
 
 void DesignBranch::complete(DesignPoint& point) const {
   point.byParameters =
-      std::make_shared<const ParameterJacobian>(*point.problem, point.motion.z, options_.omega, indices_);
+      std::make_shared<const ParameterJacobian>(*point.problem, point.motion.z, point.motion.omega, indices_);
 }
 
 void DesignBranch::addCost(const SolutionCost& cost) {

@@ -42,6 +42,7 @@ class DesignBranch {
   SolutionCost cost() const { return cost_; }
 
  private:
+  double omegaOf(const HarmonicBalanceProblem& problem) const;
   std::optional<DesignPoint> tryStep(const DesignPoint& from, const Vector& variables);
   bool correct(DesignPoint& point, const DesignPoint& from, double swing);
   bool correctByNewton(DesignPoint& point, StressSource stresses);

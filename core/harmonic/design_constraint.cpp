@@ -4,6 +4,7 @@
 
 #include "core/harmonic/path_length.hpp"
 #include "core/harmonic/smooth_extreme.hpp"
+#include "core/harmonic/stress_quantity.hpp"
 
 namespace pliant::harmonic {
 
@@ -158,6 +159,10 @@ const std::vector<ConstraintKind>& constraintKinds() {
       {"strain of a triangle",
        [](const Problem&, std::mt19937&) {
          return makeLargestStrain({{{0, 1, 2}}, {}, 20});
+       }},
+      {"stress of a triangle",
+       [](const Problem&, std::mt19937&) {
+         return makeLargestStress({{{0, 1, 2}}, {}, mechanics::ElementMeasure::vonMises, 1e-3});
        }},
       {"clearance from a plane",
        [](const Problem& problem, std::mt19937& random) {

@@ -8,6 +8,7 @@
 #include "core/harmonic/design_branch.hpp"
 #include "core/math/low_discrepancy.hpp"
 #include "core/math/parallel.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 
 namespace pliant::harmonic {
 
@@ -38,12 +39,16 @@ class SpaceSampler {
     design.from = -1;
     auto model = std::make_shared<Model>(mechanics::withParameterValues(problem_.model(), parameters_, design.values));
     HarmonicBalanceProblem anew(std::move(model), problem_.basis());
-    const PeriodicMotion motion = solvePeriodicMotion(anew, branchOptions_.omega, branchOptions_.motion, context_);
+    const PeriodicMotion motion = solvePeriodicMotion(anew, omegaOf(anew), branchOptions_.motion, context_);
     if (motion.report.converged()) take(anew, motion.z, MotionOrigin::anew, design);
     return design;
   }
 
  private:
+  double omegaOf(const HarmonicBalanceProblem& problem) const {
+    return mechanics::driveFrequency(problem.model()).value_or(branchOptions_.omega);
+  }
+
   static int nearest(const Vector& variables, const std::vector<SampledDesign>& known) {
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -70,7 +75,7 @@ class SpaceSampler {
     design.origin = origin;
     design.model = problem.sharedModel();
     design.z = z;
-    design.residual = problem.residual(z, branchOptions_.omega).norm() / problem.forceScale(branchOptions_.omega);
+    design.residual = problem.residual(z, omegaOf(problem)).norm() / problem.forceScale(omegaOf(problem));
     for (const mechanics::Probe& probe : design.model->probes)
       design.amplitudes.push_back(amplitude(problem, z, probe.node));
   }

@@ -409,6 +409,11 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double drive
     const Matrix forces = workspace_->gradient.topRows(samples)(Eigen::all, m.dofs.freeCoordinates);
     derivative += rate * omega * s.basis.derivative(s.basis.analysis() * forces);
   }
+  if (const double rate = change.driveFrequency(); rate != 0) {
+    Vector h, byFrequency;
+    linearize(z, driveFrequency, h, nullptr, &byFrequency);
+    derivative.reshaped() += rate * byFrequency;
+  }
   return withoutLeftOut(derivative.reshaped());
 }
 

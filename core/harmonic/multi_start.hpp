@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/harmonic/inverse_design.hpp"
+#include "core/harmonic/constrained_design.hpp"
 
 namespace pliant::harmonic {
 
@@ -9,21 +9,26 @@ struct DesignStart {
   Vector values;         ///< of the parameters that may change
   double objective = 0;  ///< there
   double reached = 0;    ///< the lowest that was found from there
+  double violation = 0;  ///< of the constraints by what was found, in units of their scales
   int designs = 0;       ///< accepted on the way
   base::TerminationType termination = base::TerminationType::failed;
 };
 
 struct MultiStartResult {
   /// Of the best start. Its history begins with the model's own design, whatever the start, and its counts are of all.
-  InverseDesignResult design;
+  /// Without constraints, it has the design alone.
+  ConstrainedDesignResult found;
   std::vector<DesignStart> starts;  ///< the first is the model's own design
   int best = 0;                     ///< of the starts
 };
 
-/// The best of what `designInversely` finds from several first designs: the model's own and, of four times as many that
-/// fill the space between the bounds evenly (sampleDesignSpace), those with the lowest objective. `onIterate` gets the
-/// designs of one start after the other, each beginning with iteration 0. On cancellation, the best so far.
+/// The best of what `designInversely`, or with constraints `designWithConstraints`, finds from several first designs:
+/// the model's own and, of four times as many that fill the space between the bounds evenly (sampleDesignSpace), the
+/// best. A design that keeps the constraints (to constraintTolerance) is better than one that does not; of those that
+/// do, the lower objective is better, of the others the smaller violation. `onIterate` gets the designs of one start
+/// after the other, each beginning with iteration 0. On cancellation, the best so far.
 MultiStartResult designFromSeveralStarts(const HarmonicBalanceProblem& problem, const DesignObjective& objective,
+                                         const std::vector<DesignConstraint>& constraints,
                                          const InverseDesignOptions& options, int starts, unsigned seed,
                                          base::ExecutionContext& context,
                                          const std::function<void(const DesignIterate&)>& onIterate = {});

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/harmonic/jacobian_solver.hpp"
 #include "core/harmonic/refined_solve.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/joint_parameter.hpp"
 
 namespace pliant::harmonic {
@@ -77,7 +78,7 @@ Vector PredictionError::residualAt(const Vector& direction, const MotionDerivati
       problem_.drivePeriods(), problem_.coordinateHarmonics());
   Vector z = z_ + s * path.first;
   if (path.second.size() > 0) z += 0.5 * s * s * path.second;
-  return changed.residual(z, omega_);
+  return changed.residual(z, mechanics::driveFrequency(changed.model()).value_or(omega_));
 }
 
 /// The first derivative that `path` does not have yet.

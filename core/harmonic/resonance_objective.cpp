@@ -7,6 +7,7 @@
 #include "core/harmonic/curve_sensitivity.hpp"
 #include "core/harmonic/frequency_response.hpp"
 #include "core/harmonic/mode_sensitivity.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 
 namespace pliant::harmonic {
 
@@ -29,6 +30,10 @@ ObjectiveValue placed(const HarmonicBalanceProblem& problem, double omega, const
   const double offset = (omega - wanted) / wanted;
   result.value = offset * offset;
   result.byParameters = 2 * offset / wanted * derivative;
+  // A peak is where it is, at whatever frequency the design's own motion is.
+  const auto& parameters = problem.model().parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (mechanics::isDriveFrequency(*parameters[i])) result.byParameters[static_cast<Eigen::Index>(i)] = 0;
   return result;
 }
 

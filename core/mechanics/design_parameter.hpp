@@ -24,6 +24,7 @@ class ModelDerivative {
   virtual Vector prescribed(math::Phases phases) const;
   virtual double massDamping() const { return 0; }       ///< dD_α/dp
   virtual double stiffnessDamping() const { return 0; }  ///< dD_β/dp
+  virtual double driveFrequency() const { return 0; }    ///< dω/dp, of the motion that is sought
 
  protected:
   const Model& model_;

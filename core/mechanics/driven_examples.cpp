@@ -30,6 +30,9 @@ Model shakenNodes(double value) {
   for (const int node : {1, 2})
     for (const Vector& direction : {x, y})
       model.energies.push_back(makeGroundedSpring(2, node, rest(node), direction, {{4, 0, 10}}));
+  const ShellMaterial sheet{
+      .youngModulus = 1e4 * value, .poissonRatio = 0.3, .density = 1, .thickness = 1e-3 * (1 + 0.1 * value)};
+  model.energies.push_back(makeMembrane(2, model.restPositions, {{0, 1, 2}}, sheet));
   model.pointMasses = {{"first", {1}, 0.5 + 0.1 * value * value, 0.1, 3}, {"second", {2}, 0.4, 0.1, 3}};
   model.gravity = vectorOf(0.3, -1);
   model.forces = {{"load", {2}, y, {{{1, 0.4 + 0.1 * value, 0.2}}}}};
@@ -64,7 +67,7 @@ Model drivenStiffnessFactorExample(std::mt19937& random) {
   Model model = shakenNodes(1);
   StiffnessFactorOptions options{"factor", "/factors", {anyValue(random)}, 0.2, 3};
   const ShellMaterial material{.youngModulus = 1e4, .poissonRatio = 0.3, .density = 1, .thickness = 1e-3};
-  model.energies.push_back(makeMembrane(2, model.restPositions, {{0, 1, 2}}, material, {options.values, {}}));
+  model.energies.back() = makeMembrane(2, model.restPositions, {{0, 1, 2}}, material, {options.values, {}});
   model.parameters = makeStiffnessFactors(model, static_cast<int>(model.energies.size()) - 1, options);
   return model;
 }

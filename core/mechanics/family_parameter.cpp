@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
 #include "core/mechanics/joint_parameter.hpp"
 
@@ -24,13 +26,42 @@ constexpr std::array<Stencil, 3> stencils = {
     Stencil{{0, 1, 2, 3, 4}, {-25. / 12, 48. / 12, -36. / 12, 16. / 12, -3. / 12}},
     Stencil{{0, -1, -2, -3, -4}, {25. / 12, -48. / 12, 36. / 12, -16. / 12, 3. / 12}}};
 
+/// A model with another value of a parameter, and its weight in a derivative.
+struct Neighbour {
+  double weight;
+  std::shared_ptr<const Model> model;
+};
+
+double stepOf(const DesignParameter& parameter, const Model& model, double relativeStep) {
+  const double range = parameter.maximum(model) - parameter.minimum(model);
+  return relativeStep * std::max(std::abs(parameter.value(model)), 0.1 * range);
+}
+
+/// `modelAt` gets multiples of the step.
+std::vector<Neighbour> neighboursOf(double step, const std::function<Model(double offset)>& modelAt) {
+  for (const Stencil& stencil : stencils) try {
+      std::vector<Neighbour> neighbours;
+      for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
+        if (stencil.weights[i] != 0)
+          neighbours.push_back(
+              {stencil.weights[i] / step, std::make_shared<const Model>(modelAt(stencil.offsets[i] * step))});
+      return neighbours;
+    } catch (const base::InputError&) {
+      // There are no models a little farther; the last stencil's error is the one to report.
+      if (&stencil == &stencils.back()) throw;
+    }
+  return {};
+}
+
+std::vector<Neighbour> neighboursOf(const DesignParameter& parameter, const Model& model, double relativeStep) {
+  return neighboursOf(stepOf(parameter, model, relativeStep),
+                      [&](double offset) { return parameter.withValue(model, parameter.value(model) + offset); });
+}
+
+constexpr double usualStep = 2e-3;
+
 class FamilyDerivative final : public ModelDerivative {
  public:
-  struct Neighbour {
-    double weight;
-    std::shared_ptr<const Model> model;
-  };
-
   FamilyDerivative(const Model& model, std::vector<Neighbour> neighbours)
       : ModelDerivative(model), neighbours_(std::move(neighbours)) {}
 
@@ -77,6 +108,12 @@ class FamilyDerivative final : public ModelDerivative {
     return sum;
   }
 
+  double driveFrequency() const override {
+    double sum = 0;
+    for (const Neighbour& n : neighbours_) sum += n.weight * mechanics::driveFrequency(*n.model).value_or(0);
+    return sum;
+  }
+
  private:
   std::vector<Neighbour> neighbours_;
 };
@@ -111,13 +148,7 @@ class FamilyMember final : public JointParameter {
   }
 
   std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
-    for (const Stencil& stencil : stencils) try {
-        return std::make_unique<FamilyDerivative>(model, neighbours(model, stencil));
-      } catch (const base::InputError&) {
-        // The family ends nearby; the last stencil's error is the one to report.
-        if (&stencil == &stencils.back()) throw;
-      }
-    return nullptr;
+    return std::make_unique<FamilyDerivative>(model, neighboursOf(*this, model, usualStep));
   }
 
  private:
@@ -136,24 +167,37 @@ class FamilyMember final : public JointParameter {
     return values;
   }
 
-  std::vector<FamilyDerivative::Neighbour> neighbours(const Model& model, const Stencil& stencil) const {
-    constexpr double relativeStep = 2e-3;
-    const double middle = value(model);
-    const double step = relativeStep * std::max(std::abs(middle), 0.1 * (parameter_.maximum - parameter_.minimum));
-    std::vector<FamilyDerivative::Neighbour> neighbours;
-    for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
-      if (stencil.weights[i] != 0)
-        neighbours.push_back({stencil.weights[i] / step,
-                              std::make_shared<const Model>(withValue(model, middle + stencil.offsets[i] * step))});
-    return neighbours;
-  }
-
   int index_;
   FamilyParameter parameter_;
   std::shared_ptr<const ModelFamily> family_;
 };
 
 }  // namespace
+
+double derivativeOf(const std::function<double(const Model&)>& number, const DesignParameter& parameter,
+                    const Model& model, double relativeStep) {
+  double sum = 0;
+  for (const Neighbour& neighbour : neighboursOf(parameter, model, relativeStep))
+    sum += neighbour.weight * number(*neighbour.model);
+  return sum;
+}
+
+std::unique_ptr<ModelDerivative> derivativeAlong(const Model& model,
+                                                 const std::vector<std::shared_ptr<const DesignParameter>>& parameters,
+                                                 const Vector& direction) {
+  Vector values(direction.size());
+  double step = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    const DesignParameter& parameter = *parameters[static_cast<std::size_t>(i)];
+    values[i] = parameter.value(model);
+    if (direction[i] != 0) step = std::min(step, stepOf(parameter, model, usualStep) / std::abs(direction[i]));
+  }
+  if (!std::isfinite(step)) return std::make_unique<ModelDerivative>(model);
+  return std::make_unique<FamilyDerivative>(model, neighboursOf(step, [&](double offset) {
+                                              return withParameterValues(
+                                                  model, parameters, values + offset * direction);
+                                            }));
+}
 
 std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,
                                                            std::shared_ptr<const ModelFamily> family) {

@@ -27,4 +27,15 @@ struct FamilyParameter {
 std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,
                                                            std::shared_ptr<const ModelFamily> family);
 
+/// How a number that the model alone decides changes with a parameter of any kind: differences of order 4 as well, in
+/// steps of `relativeStep` times the value (or a tenth of the range, whichever is larger).
+double derivativeOf(const std::function<double(const Model&)>& number, const DesignParameter& parameter,
+                    const Model& model, double relativeStep);
+
+/// The derivatives along `direction` in the space of parameters of any kind, an entry each. Differences as above, so
+/// that a direction costs no more than one parameter.
+std::unique_ptr<ModelDerivative> derivativeAlong(const Model& model,
+                                                 const std::vector<std::shared_ptr<const DesignParameter>>& parameters,
+                                                 const Vector& direction);
+
 }  // namespace pliant::mechanics

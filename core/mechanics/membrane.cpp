@@ -10,7 +10,7 @@ namespace {
 
 template <int dimension>
 MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int, 3>& triangle,
-                                       const ShellMaterial& material, double factor) {
+                                       const ShellMaterial& material, double stiffnessFactor, double thicknessFactor) {
   const auto point = [&](int corner) { return rest.segment<dimension>(triangle[corner] * dimension); };
   const Eigen::Matrix<double, dimension, 1> e1 = point(1) - point(0), e2 = point(2) - point(0);
 
@@ -31,11 +31,13 @@ MembraneElement<dimension> makeElement(const Vector& rest, const std::array<int,
   const double nu = material.poissonRatio;
   Eigen::Matrix3d law;  // E = ½ (ε₁₁, ε₂₂, ε₁₂) law (...)ᵀ
   law << 1, nu, 0, nu, 1, 0, 0, 0, 2 * (1 - nu);
-  law *= factor * area * material.thickness * material.youngModulus / (1 - nu * nu);
+  law *= stiffnessFactor * thicknessFactor * area * material.thickness * material.youngModulus / (1 - nu * nu);
   const Eigen::Matrix3d q = strain.transpose() * law * strain;
 
   MembraneElement<dimension> element;
   element.restMetric = {e1.squaredNorm(), e2.squaredNorm(), e1.dot(e2)};
+  const double young = stiffnessFactor * material.youngModulus;
+  element.material = {area * material.thickness * thicknessFactor, young * nu / (1 - nu * nu), young / (1 + nu)};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) element.stiffness[packedIndex(i, j)] = q(i, j);
   return element;
@@ -48,8 +50,8 @@ std::shared_ptr<const Energy> makeMembraneOf(const Vector& rest, const Triangles
   std::vector<std::array<int, 3 * dimension>> coordinates;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& triangle = triangles[t];
-    const double factor = factorOf(factors.stiffness, t) * factorOf(factors.thickness, t);
-    elements.push_back(makeElement<dimension>(rest, corners[t], material, factor));
+    elements.push_back(makeElement<dimension>(
+        rest, corners[t], material, factorOf(factors.stiffness, t), factorOf(factors.thickness, t)));
     auto& indices = coordinates.emplace_back();
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < dimension; ++axis)

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/mechanics/element_energy.hpp"
+#include "core/mechanics/element_material.hpp"
 
 namespace pliant::mechanics {
 
@@ -19,6 +20,7 @@ struct MembraneElement {
 
   std::array<double, 3> restMetric;  ///< e₁·e₁, e₂·e₂, e₁·e₂ [m²]
   std::array<double, 6> stiffness;   ///< Q, packed lower triangle
+  ElementMaterial material;
 
   template <class T>
   T evaluate(const std::array<T, coordinates>& x, std::array<T, coordinates>* gradient,

@@ -37,6 +37,7 @@ SolidElement makeSolidElement(const Eigen::Matrix3d& edges, double youngModulus,
   const Eigen::Matrix3d metric = edges.transpose() * edges;
   const Eigen::Matrix3d inverse = metric.inverse();  // raises the indices of the strain
   SolidElement element;
+  element.material = {volume, lambda, 2 * mu};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) {
       element.restMetric[packedIndex(i, j)] = metric(i, j);

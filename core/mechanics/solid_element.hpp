@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/mechanics/element_energy.hpp"
+#include "core/mechanics/element_material.hpp"
 
 namespace pliant::mechanics {
 
@@ -18,6 +19,7 @@ struct SolidElement {
 
   std::array<double, 6> restMetric;  ///< eᵢ·eⱼ, packed [m²]
   std::array<double, 21> stiffness;  ///< C, packed lower triangle
+  ElementMaterial material;
 
   template <class T>
   using Edges = std::array<std::array<T, 3>, 3>;

@@ -47,6 +47,7 @@ class FactoredEnergy : public Energy {
  public:
   virtual const std::vector<double>& factors() const = 0;
   virtual std::shared_ptr<const Energy> withFactors(std::vector<double> factors) const = 0;
+  virtual FactoredParts parts() const = 0;
   /// The gradient of an element by its coordinates as if its factor were 1, for each configuration (a row of `x`).
   virtual Matrix unitGradient(int element, const Matrix& x) const = 0;
 };
@@ -71,6 +72,12 @@ class FactoredElements final : public FactoredEnergy {
   const std::vector<double>& factors() const override { return factors_; }
   std::shared_ptr<const Energy> withFactors(std::vector<double> factors) const override {
     return std::make_shared<FactoredElements>(made_, initial_, std::move(factors));
+  }
+
+  FactoredParts parts() const override {
+    FactoredParts parts{made_, factors_};
+    for (std::size_t e = 0; e < factors_.size(); ++e) parts.scales[e] /= initial_[e];
+    return parts;
   }
 
   Matrix unitGradient(int element, const Matrix& x) const override {
@@ -173,6 +180,8 @@ class StiffnessFactor final : public JointParameter {
   double minimum(const Model&) const override { return group_->options.minimum; }
   double maximum(const Model&) const override { return group_->options.maximum; }
 
+  ElementPlace place() const { return {group_->energy, element_}; }
+
   const void* group() const override { return group_.get(); }
   Model withJointValues(const Model& model, const std::vector<const JointParameter*>& members,
                         const std::vector<double>& values) const override {
@@ -208,6 +217,16 @@ Matrix ElasticDerivative::gradient(const Matrix& x) const {
   const Matrix local = coordinateGradient(x);
   for (std::size_t i = 0; i < where.size(); ++i) all.col(where[i]) += local.col(static_cast<Eigen::Index>(i));
   return all;
+}
+
+FactoredParts withoutFactors(const std::shared_ptr<const Energy>& energy) {
+  const auto* found = dynamic_cast<const FactoredEnergy*>(energy.get());
+  return found ? found->parts() : FactoredParts{energy, {}};
+}
+
+std::optional<ElementPlace> factoredElement(const DesignParameter& parameter) {
+  const auto* factor = dynamic_cast<const StiffnessFactor*>(&parameter);
+  return factor ? std::optional(factor->place()) : std::nullopt;
 }
 
 std::vector<std::shared_ptr<const DesignParameter>> makeStiffnessFactors(const Model& model, int energy,

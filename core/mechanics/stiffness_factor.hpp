@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,13 @@
 #include "core/mechanics/design_parameter.hpp"
 
 namespace pliant::mechanics {
+
+/// An element of one of the model's energies.
+struct ElementPlace {
+  int energy = 0;
+  int element = 0;
+  bool operator==(const ElementPlace&) const = default;
+};
 
 /// The derivative by a parameter on which nothing but the elastic energy of some coordinates depends.
 class ElasticDerivative : public ModelDerivative {
@@ -19,6 +27,16 @@ class ElasticDerivative : public ModelDerivative {
 
   Matrix gradient(const Matrix& x) const final;
 };
+
+/// An energy, with what multiplies the energy of each of its elements apart.
+struct FactoredParts {
+  std::shared_ptr<const Energy> elements;
+  std::vector<double> scales;  ///< all 1 if empty
+};
+FactoredParts withoutFactors(const std::shared_ptr<const Energy>& energy);
+
+/// The element whose factor of stiffness a parameter is; none of other kinds of parameters.
+std::optional<ElementPlace> factoredElement(const DesignParameter& parameter);
 
 struct StiffnessFactorOptions {
   std::string name;            ///< of the parameters, before the element's index

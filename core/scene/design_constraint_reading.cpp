@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/harmonic/stress_quantity.hpp"
 #include "core/scene/json_text.hpp"
 
 namespace pliant::scene {
@@ -42,21 +43,55 @@ DesignConstraint massConstraint(const Json& entry, const std::string& place) {
   return constraint;
 }
 
-DesignConstraint strainConstraint(const Model& model, const Json& entry, const std::string& place) {
-  harmonic::StrainGoal goal;
+/// What of an entry's geometries is deformed.
+struct ChosenElements {
+  mechanics::Triangles triangles;
+  mechanics::Tetrahedra tetrahedra;
+};
+
+ChosenElements elementsOf(const Model& model, const Json& entry, const std::string& place) {
+  ChosenElements chosen;
   const Json names = entry.value("geometries", Json::array());
   for (const mechanics::DisplayPart& part : model.parts) {
     if (!names.empty() && std::find(names.begin(), names.end(), part.name) == names.end()) continue;
     // Triangles of a solid are its surface, drawn alone.
     if (part.tetrahedra.empty() && model.dimension > 1)
-      goal.triangles.insert(goal.triangles.end(), part.triangles.begin(), part.triangles.end());
-    goal.tetrahedra.insert(goal.tetrahedra.end(), part.tetrahedra.begin(), part.tetrahedra.end());
+      chosen.triangles.insert(chosen.triangles.end(), part.triangles.begin(), part.triangles.end());
+    chosen.tetrahedra.insert(chosen.tetrahedra.end(), part.tetrahedra.begin(), part.tetrahedra.end());
   }
-  if (goal.triangles.empty() && goal.tetrahedra.empty())
+  if (chosen.triangles.empty() && chosen.tetrahedra.empty())
     throw InputError(place, "There are no triangles or tetrahedra that could be strained.");
-  const double most = entry["at_most"];
-  goal.sharpness = entry["sharpness"].get<double>() / most;
-  DesignConstraint constraint{"strain", harmonic::makeLargestStrain(std::move(goal))};
+  return chosen;
+}
+
+/// Of stress, or of the strain of surfaces, within `most`.
+DesignConstraint stressConstraint(const Scene& scene, const Model& model, const Json& entry, const std::string& place,
+                                  mechanics::ElementMeasure measure) {
+  const ChosenElements chosen = elementsOf(model, entry, place);
+  const Json names = entry.value("geometries", Json::array());
+  for (const Json& element : scene.normalized()["elements"])
+    if ((element["type"] == "rod" || element["type"] == "flat_rod") &&
+        (names.empty() || std::find(names.begin(), names.end(), element["geometry"]) != names.end()))
+      throw InputError(place, "The stress of rods such as " + quote(element["name"].get<std::string>()) +
+                                  " is not known: name the \"geometries\" of sheets and solids.");
+  if (mechanics::ElementStress(model, chosen.triangles, chosen.tetrahedra, measure).count() == 0)
+    throw InputError(place, "There are no membranes, shells or solids that could be stressed.");
+  const double most = entry["at_most"], sharpness = entry["sharpness"];
+  const bool isStress = measure == mechanics::ElementMeasure::vonMises;
+  DesignConstraint constraint{
+      isStress ? "stress" : "strain of surfaces",
+      harmonic::makeLargestStress({chosen.triangles, chosen.tetrahedra, measure, sharpness / most})};
+  constraint.upper = constraint.scale = most;
+  return constraint;
+}
+
+DesignConstraint strainConstraint(const Scene& scene, const Model& model, const Json& entry, const std::string& place) {
+  if (entry["surfaces"])
+    return stressConstraint(scene, model, entry, place, mechanics::ElementMeasure::principalStrain);
+  ChosenElements chosen = elementsOf(model, entry, place);
+  const double most = entry["at_most"], sharpness = entry["sharpness"];
+  DesignConstraint constraint{"strain", harmonic::makeLargestStrain({std::move(chosen.triangles),
+                                                                     std::move(chosen.tetrahedra), sharpness / most})};
   constraint.upper = constraint.scale = most;
   return constraint;
 }
@@ -90,7 +125,7 @@ DesignConstraint clearanceConstraint(const Model& model, const Json& entry, cons
 
 }  // namespace
 
-std::vector<DesignConstraint> readDesignConstraints(const Model& model, const Json& constraints,
+std::vector<DesignConstraint> readDesignConstraints(const Scene& scene, const Model& model, const Json& constraints,
                                                     const std::string& place) {
   std::vector<DesignConstraint> list;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
@@ -99,7 +134,9 @@ std::vector<DesignConstraint> readDesignConstraints(const Model& model, const Js
     if (entry["type"] == "total_mass")
       list.push_back(massConstraint(entry, here));
     else if (entry["type"] == "strain")
-      list.push_back(strainConstraint(model, entry, here));
+      list.push_back(strainConstraint(scene, model, entry, here));
+    else if (entry["type"] == "stress")
+      list.push_back(stressConstraint(scene, model, entry, here, mechanics::ElementMeasure::vonMises));
     else
       list.push_back(clearanceConstraint(model, entry, here));
   }

@@ -7,7 +7,7 @@ namespace pliant::scene {
 
 /// What the "constraints" of a design study, which stand at `place`, mean for the scene's model. Throws
 /// base::InputError.
-std::vector<harmonic::DesignConstraint> readDesignConstraints(const mechanics::Model& model, const Json& constraints,
-                                                              const std::string& place);
+std::vector<harmonic::DesignConstraint> readDesignConstraints(const Scene& scene, const mechanics::Model& model,
+                                                              const Json& constraints, const std::string& place);
 
 }  // namespace pliant::scene

@@ -13,14 +13,28 @@ base::ParameterSpec designConstraints() {
              {optional(positive(number("at_most", "", "Largest mass.", dimensions::mass))),
               optional(positive(number("at_least", "", "Smallest mass.", dimensions::mass))),
               optional(positive(number("equal", "", "The mass, exactly.", dimensions::mass)))});
+  const ParameterSpec geometries = optional(list("geometries", "Only those of these geometries count; all if left out.",
+                                                 reference("", "A geometry.", "geometry"), 1, 1000));
+  ParameterSpec stress = object(
+      "stress",
+      "The largest von Mises stress of any membrane, shell or solid at any time: Cauchy stress of the elements' own "
+      "law, that of a shell at both surfaces with the bending moments of its hinges, 6 M / h². Rods have none here.",
+      {positive(number("at_most", "σ", "Largest stress.", dimensions::pressure)), geometries,
+       withDefault(
+           positive(number("sharpness", "",
+                           "β σ of the smooth maximum ln(Σ exp(β stress)) / β over elements, surfaces and instants, "
+                           "which is held: it exceeds the largest stress by ln(their number) / β at most.",
+                           dimensions::none)),
+           300)});
   ParameterSpec strain =
       object("strain",
              "The largest strain of any triangle, in its plane, or tetrahedron at any time: its largest principal "
-             "stretch minus "
-             "1. Bending does not strain the triangles of a shell.",
-             {positive(number("at_most", "ε", "Largest strain.", dimensions::none)),
-              optional(list("geometries", "Only those of these geometries count; all if left out.",
-                            reference("", "A geometry.", "geometry"), 1, 1000)),
+             "stretch minus 1. Without \"surfaces\", bending does not strain the triangles of a shell.",
+             {positive(number("at_most", "ε", "Largest strain.", dimensions::none)), geometries,
+              withDefault(boolean("surfaces",
+                                  "Whether it is the strain of a shell's surfaces that counts, which bending stretches "
+                                  "(and of membranes and solids as before)."),
+                          false),
               withDefault(
                   positive(number("sharpness", "",
                                   "β ε of the smooth maximum ln(Σ exp(β strain)) / β over elements and instants, which "
@@ -45,9 +59,10 @@ base::ParameterSpec designConstraints() {
                            dimensions::length)),
            1e-4)});
   clearance.exactlyOne = {"plane", "sphere", "node"};
-  return optional(list(
-      "constraints", "What a design must keep to; it is then found by Ipopt.",
-      variant("constraint", "One condition.", {std::move(mass), std::move(strain), std::move(clearance)}), 1, 100));
+  return optional(list("constraints", "What a design must keep to; it is then found by Ipopt.",
+                       variant("constraint", "One condition.",
+                               {std::move(mass), std::move(strain), std::move(stress), std::move(clearance)}),
+                       1, 100));
 }
 
 }  // namespace pliant::scene

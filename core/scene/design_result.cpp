@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/harmonic_names.hpp"
 #include "core/scene/json_text.hpp"
@@ -168,6 +169,10 @@ std::string designTrajectoryTable(const DesignResult& result) {
 
 }  // namespace
 
+double DesignResult::omegaOf(const DesignIterate& iterate) const {
+  return mechanics::driveFrequency(*iterate.model).value_or(omega);
+}
+
 std::shared_ptr<HarmonicResult> DesignResult::motionOf(const DesignIterate& iterate) const {
   auto result = std::make_shared<HarmonicResult>();
   result->termination = base::TerminationType::converged;
@@ -175,7 +180,7 @@ std::shared_ptr<HarmonicResult> DesignResult::motionOf(const DesignIterate& iter
   result->problem =
       std::make_shared<const harmonic::HarmonicBalanceProblem>(iterate.model, math::HarmonicBasis(harmonics, samples));
   harmonic::ResponsePoint point;
-  point.omega = omega;
+  point.omega = omegaOf(iterate);
   point.z = iterate.z;
   point.amplitudes = iterate.amplitudes;
   result->points.push_back(std::move(point));
@@ -195,7 +200,7 @@ std::vector<std::string> DesignResult::warnings() const {
 
 Json DesignResult::summary() const {
   Json json = summaryHead(*this);
-  addFrequency(json, omega);
+  addFrequency(json, design.history.empty() ? omega : omegaOf(after()));
   json["iterations"] = design.history.empty() ? 0 : after().iteration;
   json["evaluations"] = design.evaluations;
   json["solves"] = design.solves;
@@ -212,6 +217,7 @@ Json DesignResult::summary() const {
       for (const harmonic::DesignStart& start : starts)
         list.push_back({{"objective_before", start.objective},
                         {"objective", start.reached},
+                        {"constraint_violation", start.violation},
                         {"designs", start.designs},
                         {"termination", base::toString(start.termination)}});
       json["starts"] = list;

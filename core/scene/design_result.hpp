@@ -27,6 +27,8 @@ class DesignResult final : public Result {
 
   /// The motion of a design, as the study "periodic_motion" gives it, without its stability and sensitivities.
   std::shared_ptr<HarmonicResult> motionOf(const harmonic::DesignIterate& design) const;
+  /// The frequency of a design's motion [rad/s], which may be one of the parameters.
+  double omegaOf(const harmonic::DesignIterate& design) const;
   const harmonic::DesignIterate& before() const { return design.history.front(); }
   const harmonic::DesignIterate& after() const { return design.history.back(); }
   /// Designs, their motions, and how they were found. The history is empty if the first design has no motion, and
@@ -41,7 +43,7 @@ class DesignResult final : public Result {
   DesignConstraints constraints;
 
   harmonic::Stability stability;  ///< of the last design's motion; unknown if not asked for
-  double omega = 0;
+  double omega = 0;               ///< of the first design [rad/s]
   int harmonics = 0;
   int samples = 0;
   std::vector<int> parameters;            ///< that could change, by index in `Model::parameters`

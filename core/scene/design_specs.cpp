@@ -88,7 +88,7 @@ std::vector<base::ParameterSpec> designKeys() {
       designConstraints(),
       withDefault(integer("starts", "",
                           "Designs to begin with, the best result of which counts: the scene's own and the most "
-                          "promising of four times as many between the bounds. Without constraints.",
+                          "promising of four times as many between the bounds.",
                           1, 1000),
                   1),
       withDefault(integer("seed", "", "Of the designs between the bounds.", 0, 1'000'000'000), 1),

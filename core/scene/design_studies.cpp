@@ -169,11 +169,9 @@ class DesignStudy final : public Study {
     DesignReader reader(scene, *designed, options_);
     parameters_ = reader.parameters();
     objective_ = reader.objective(parameters_, paths_);
-    if (options_.contains("constraints") && options_["starts"] > 1)
-      throw InputError(placeOfStudy(scene, options_) + "/starts", "A design with constraints begins with one design.");
     if (options_.contains("constraints"))
-      constraints_ =
-          readDesignConstraints(*designed, options_["constraints"], placeOfStudy(scene, options_) + "/constraints");
+      constraints_ = readDesignConstraints(
+          scene, *designed, options_["constraints"], placeOfStudy(scene, options_) + "/constraints");
     model_ = std::move(designed);
   }
 
@@ -204,11 +202,13 @@ class DesignStudy final : public Study {
     };
     harmonic::HarmonicBalanceProblem problem(model_, math::HarmonicBasis(result->harmonics, result->samples));
     if (const int starts = options_["starts"]; starts > 1) {
-      auto found = harmonic::designFromSeveralStarts(
-          problem, *objective_, designOptions(), starts, options_["seed"], context, onIterate);
-      result->design = std::move(found.design);
-      result->starts = std::move(found.starts);
-      result->bestStart = found.best;
+      auto all = harmonic::designFromSeveralStarts(
+          problem, *objective_, constraints_, designOptions(), starts, options_["seed"], context, onIterate);
+      result->design = std::move(all.found.design);
+      if (!constraints_.empty())
+        result->constraints = {constraints_, std::move(all.found.states), std::move(all.found.optimality)};
+      result->starts = std::move(all.starts);
+      result->bestStart = all.best;
     } else if (constraints_.empty()) {
       result->design = harmonic::designInversely(std::move(problem), *objective_, designOptions(), context, onIterate);
     } else {
@@ -221,7 +221,8 @@ class DesignStudy final : public Study {
     result->message = result->design.report.message;
     if (options_["stability"] == "on" && !result->design.history.empty() && !context.cancelRequested()) {
       const auto last = result->motionOf(result->after());
-      result->stability = harmonic::floquetStability(*last->problem, result->after().z, result->omega);
+      result->stability =
+          harmonic::floquetStability(*last->problem, result->after().z, result->omegaOf(result->after()));
     }
     result->seconds = watch.seconds();
     if (observe) observe(result);

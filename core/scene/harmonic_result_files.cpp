@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/geometry/surface_mesh.hpp"
 #include "core/harmonic/backbone.hpp"
 #include "core/harmonic/constraint_violation.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/harmonic_names.hpp"
 #include "core/scene/input_error_location.hpp"
@@ -141,8 +143,10 @@ std::string constraintTable(const HarmonicResult& result) {
 
 /// The model of the scene with the parameter values that the result was computed with.
 std::shared_ptr<const Model> modelOf(const Scene& scene, const Json& summary) {
-  auto model = buildModel(scene);
   const Json& values = summary.at("parameters");
+  auto model = mechanics::withoutDriveFrequencies(buildModel(scene), [&](const std::string& pointer) {
+    return std::any_of(values.begin(), values.end(), [&](const Json& value) { return value.at("pointer") == pointer; });
+  });
   if (values.size() != model->parameters.size()) otherScene();
   for (std::size_t p = 0; p < values.size(); ++p) {
     const double value = values[p].at("value");

@@ -12,6 +12,7 @@
 #include "core/scene/interlock_builder.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/mechanism_builders.hpp"
+#include "core/scene/mirrored_nodes.hpp"
 #include "core/scene/placed_geometry.hpp"
 #include "core/scene/scene_parameters.hpp"
 
@@ -146,8 +147,9 @@ class Builder {
 
   void addPointMass(const Json& entry, const std::string& pointer) {
     const int index = static_cast<int>(model_.pointMasses.size());
-    model_.pointMasses.push_back(
-        {entry["name"], nodesAt(entry, pointer), entry["mass"], entry["minimum"], entry["maximum"]});
+    std::vector<int> nodes = nodesAt(entry, pointer);
+    if (entry.contains("mirrored")) nodes = withMirrorImages(model_, nodes, entry["mirrored"], pointer + "/mirrored");
+    model_.pointMasses.push_back({entry["name"], std::move(nodes), entry["mass"], entry["minimum"], entry["maximum"]});
     model_.parameters.push_back(mechanics::makePointMassParameter(index, entry["name"]));
   }
 

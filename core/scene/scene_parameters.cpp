@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/family_parameter.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
@@ -20,6 +21,12 @@ bool shapesTheModel(const std::string& pointer) {
   return false;
 }
 
+/// Whether a pointer is that of a study's own frequency.
+bool isFrequencyOfStudy(const std::string& pointer) {
+  return pointer.starts_with("/studies/") && pointer.ends_with("/frequency") &&
+         std::count(pointer.begin(), pointer.end(), '/') == 3;
+}
+
 /// The entry's value in SI, with its bounds: as given, or half and twice the value.
 mechanics::FamilyParameter declare(const Scene& scene, const Json& entry, const std::string& place) {
   mechanics::FamilyParameter parameter;
@@ -28,10 +35,11 @@ mechanics::FamilyParameter declare(const Scene& scene, const Json& entry, const 
   const base::ParameterSpec* spec = locate(place + "/pointer", [&] { return specAt(scene, parameter.pointer); });
   const auto path = Json::json_pointer(parameter.pointer);
   const bool isNumber = spec && spec->kind == base::ValueKind::number && scene.normalized().contains(path);
-  if (!isNumber || !shapesTheModel(parameter.pointer))
+  if (!isNumber || !(shapesTheModel(parameter.pointer) || isFrequencyOfStudy(parameter.pointer)))
     throw InputError(place + "/pointer", quote(parameter.pointer) +
                                              " names no number of a geometry, material, element, spring, drive, load "
-                                             "or the damping (masses are parameters of their own).");
+                                             "or the damping, nor the frequency of a study (masses are parameters of "
+                                             "their own).");
   parameter.dimension = spec->dimension;
   const double value = scene.normalized()[path];
   parameter.minimum = entry.value("minimum", std::min(value / 2, value * 2));
@@ -51,13 +59,18 @@ void addSceneParameters(const Scene& scene, mechanics::Model& model, mechanics::
   const Json& entries = scene.normalized()["parameters"];
   if (entries.empty()) return;
   std::vector<mechanics::FamilyParameter> declared;
-  std::vector<std::string> pointers;
+  std::vector<std::string> pointers;  // of the family
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::string place = childPointer("/parameters", i);
-    declared.push_back(declare(scene, entries[i], place));
-    if (std::find(pointers.begin(), pointers.end(), declared.back().pointer) != pointers.end())
-      throw InputError(place + "/pointer", "There is already a parameter for " + quote(declared.back().pointer) + ".");
-    pointers.push_back(declared.back().pointer);
+    mechanics::FamilyParameter parameter = declare(scene, entries[i], place);
+    const std::string& pointer = parameter.pointer;
+    if (std::any_of(declared.begin(), declared.end(), [&](const auto& other) { return other.pointer == pointer; }))
+      throw InputError(place + "/pointer", "There is already a parameter for " + quote(pointer) + ".");
+    if (!isFrequencyOfStudy(pointer))
+      pointers.push_back(pointer);
+    else if (!(parameter.minimum > 0))
+      throw InputError(place + "/minimum", "A frequency must be above 0.");
+    declared.push_back(std::move(parameter));
   }
   const auto family =
       std::make_shared<const mechanics::ModelFamily>([scene, pointers, build](const std::vector<double>& values) {
@@ -65,9 +78,16 @@ void addSceneParameters(const Scene& scene, mechanics::Model& model, mechanics::
         member.familyValues = values;
         return member;
       });
-  for (std::size_t i = 0; i < declared.size(); ++i) {
-    model.familyValues.push_back(scene.normalized()[Json::json_pointer(pointers[i])]);
-    model.parameters.push_back(mechanics::makeFamilyParameter(static_cast<int>(i), std::move(declared[i]), family));
+  for (mechanics::FamilyParameter& parameter : declared) {
+    const double value = scene.normalized()[Json::json_pointer(parameter.pointer)];
+    if (isFrequencyOfStudy(parameter.pointer)) {
+      model.parameters.push_back(mechanics::makeDriveFrequency(
+          {parameter.name, parameter.pointer, value, parameter.minimum, parameter.maximum}));
+      continue;
+    }
+    const auto index = static_cast<int>(model.familyValues.size());
+    model.familyValues.push_back(value);
+    model.parameters.push_back(mechanics::makeFamilyParameter(index, std::move(parameter), family));
   }
 }
 

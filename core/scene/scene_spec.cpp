@@ -146,6 +146,11 @@ ParameterSpec springs() {
 ParameterSpec pointMasses() {
   return object("point_mass", "A mass on each of some nodes; a design parameter.",
                 {name(), selection("at", "Nodes; each gets the mass."),
+                 optional(object("mirrored",
+                                 "The nodes that rest nearest to their mirror images in this plane get the mass as "
+                                 "well: a symmetric pair is one parameter.",
+                                 {vector("point", "Any point of it.", dimensions::length),
+                                  vector("normal", "Only its direction counts.", dimensions::none)})),
                  notNegative(number("mass", "m", "Mass.", dimensions::mass)),
                  withDefault(notNegative(number("minimum", "", "Smallest mass in design.", dimensions::mass)), 0),
                  optional(notNegative(number(
@@ -249,7 +254,10 @@ ParameterSpec makeSceneSpec() {
                    Json::object()),
        entries("parameters", "Numbers of the scene as design parameters, besides the point masses.",
                object("parameter", "A number of the scene that a designer may change: the window gives it a slider.",
-                      {name(), text("pointer", "JSON pointer of the number, such as \"/elements/0/thickness\"."),
+                      {name(),
+                       text("pointer",
+                            "JSON pointer of the number, such as \"/elements/0/thickness\", or of a study's "
+                            "frequency, \"/studies/0/frequency\"."),
                        optional(number("minimum", "", "Smallest value in design, in SI; half the value if left out.",
                                        dimensions::none)),
                        optional(number("maximum", "", "Largest value in design, in SI; twice the value if left out.",

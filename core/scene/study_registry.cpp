@@ -1,4 +1,5 @@
 #include "core/base/error.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/scene/bending_studies.hpp"
 #include "core/scene/calibration_studies.hpp"
 #include "core/scene/cloth_studies.hpp"
@@ -12,6 +13,7 @@
 #include "core/scene/macro_studies.hpp"
 #include "core/scene/resumable_study.hpp"
 #include "core/scene/sharded_study.hpp"
+#include "core/scene/study_input.hpp"
 #include "core/scene/study_specs.hpp"
 #include "core/scene/time_studies.hpp"
 
@@ -96,6 +98,10 @@ std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<c
       if (scene.normalized()["geometry"].empty() && !options.contains("cell"))
         throw base::InputError(
             scene.name() + ": /geometry", "The scene has no nodes, which the study " + quote(studyName) + " needs.");
+      // The frequencies of other studies are no parameters of this one.
+      const std::string own = placeOfStudy(scene, options) + "/frequency";
+      model = mechanics::withoutDriveFrequencies(
+          std::move(model), [&](const std::string& pointer) { return scene.name() + ": " + pointer == own; });
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
     }
   std::string known;

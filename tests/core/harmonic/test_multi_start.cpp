@@ -24,14 +24,15 @@ class TwoWells final : public harmonic::DesignObjective {
   }
 };
 
-harmonic::MultiStartResult designed(int starts, base::ExecutionContext& context) {
+harmonic::MultiStartResult designed(int starts, base::ExecutionContext& context,
+                                    const std::vector<harmonic::DesignConstraint>& constraints = {}) {
   auto model = std::make_shared<Model>(*duffing(0.05, 0, 0.1));
   model->pointMasses[0] = {"mass", {0}, 2.9, lowest, highest};
   harmonic::InverseDesignOptions options;
   options.omega = 1.2;
   options.parameters = {0};
   return harmonic::designFromSeveralStarts(
-      HarmonicBalanceProblem(model, {3, 32}), TwoWells(), options, starts, 1, context);
+      HarmonicBalanceProblem(model, {3, 32}), TwoWells(), constraints, options, starts, 1, context);
 }
 
 /// The lower minimum on either side, by looking everywhere.
@@ -55,27 +56,63 @@ class TestMultiStart : public QObject {
     base::ExecutionContext context;
     const auto one = designed(1, context);
     QCOMPARE(one.starts.size(), 1u);
-    QVERIFY(std::abs(one.design.history.back().objective - bestOn(0, 1)) < 1e-6);
+    QVERIFY(std::abs(one.found.design.history.back().objective - bestOn(0, 1)) < 1e-6);
     const auto several = designed(4, context);
     QCOMPARE(several.starts.size(), 4u);
     QVERIFY(several.best > 0);
-    QVERIFY(std::abs(several.design.history.back().objective - bestOn(-1, 0)) < 1e-6);
-    QCOMPARE(several.starts[static_cast<std::size_t>(several.best)].reached, several.design.history.back().objective);
+    QVERIFY(std::abs(several.found.design.history.back().objective - bestOn(-1, 0)) < 1e-6);
+    QCOMPARE(
+        several.starts[static_cast<std::size_t>(several.best)].reached, several.found.design.history.back().objective);
     for (const harmonic::DesignStart& start : several.starts) {
-      QVERIFY(start.reached >= several.design.history.back().objective);
+      QVERIFY(start.reached >= several.found.design.history.back().objective);
       QVERIFY(start.reached <= start.objective);
     }
     // The way begins with the model's own design.
-    QCOMPARE(several.design.history.front().values[0], 2.9);
-    for (std::size_t i = 0; i < several.design.history.size(); ++i)
-      QCOMPARE(several.design.history[i].iteration, static_cast<int>(i));
+    QCOMPARE(several.found.design.history.front().values[0], 2.9);
+    for (std::size_t i = 0; i < several.found.design.history.size(); ++i)
+      QCOMPARE(several.found.design.history[i].iteration, static_cast<int>(i));
+  }
+
+  /// A mass of at most where v is -0.6 keeps designs off both minima: the best is at the bound. From the design itself,
+  /// which breaks the constraint, that is found as well; where v is at least -0.2, the best is the higher minimum.
+  void keepsToConstraints() {
+    base::ExecutionContext context;
+    const double slope = 2 / (highest - lowest);
+    const auto massOf = [&](double v) { return lowest + (v + 1) / slope; };
+    harmonic::DesignConstraint most{"mass", harmonic::makeTotalMass()};
+    most.scale = 1;
+    most.upper = massOf(-0.6);
+    const auto bounded = designed(4, context, {most});
+    QVERIFY(bounded.found.design.report.converged());
+    QVERIFY(std::abs(bounded.found.design.history.back().values[0] - massOf(-0.6)) < 1e-5);
+    QVERIFY(bounded.found.optimality.violation <= 1e-6);
+    QCOMPARE(bounded.found.states.size(), bounded.found.design.history.size());
+    QCOMPARE(bounded.found.design.history.front().values[0], 2.9);
+    QVERIFY(std::abs(bounded.found.states.front()[0].exactValue - 2.9) < 1e-12);
+    most.upper = highest;
+    most.lower = massOf(-0.2);
+    const auto right = designed(4, context, {most});
+    QVERIFY(std::abs(right.found.design.history.back().objective - bestOn(0, 1)) < 1e-6);
+  }
+
+  /// With a constraint that does not matter, starts end in both minima, and the lower one counts.
+  void startsEndInDifferentMinima() {
+    base::ExecutionContext context;
+    harmonic::DesignConstraint most{"mass", harmonic::makeTotalMass()};
+    most.upper = 2.95;
+    const auto several = designed(4, context, {most});
+    QVERIFY(std::abs(several.found.design.history.back().objective - bestOn(-1, 0)) < 1e-6);
+    QVERIFY(std::abs(several.starts.front().reached - bestOn(0, 1)) < 1e-6);
+    QVERIFY(several.best > 0);
+    QCOMPARE(several.starts.size(), 4u);
+    for (const harmonic::DesignStart& start : several.starts) QVERIFY(start.violation <= 1e-6);
   }
 
   void cancelledItKeepsWhatItHas() {
     base::ExecutionContext context;
     context.requestCancel();
     const auto result = designed(3, context);
-    QVERIFY(result.design.report.termination == base::TerminationType::cancelled);
+    QVERIFY(result.found.design.report.termination == base::TerminationType::cancelled);
   }
 };
 

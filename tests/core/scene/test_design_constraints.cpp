@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
@@ -71,11 +72,13 @@ class TestDesignConstraints : public QObject {
   void keepsAwayFromWhatIsThere_data();
   void keepsAwayFromWhatIsThere();
   void keepsToAStrain();
+  void keepsToAStress();
+  void refusesRods();
   void writesConstraints();
   void warnsIfTheyAreBroken();
   void refusesWrongInput_data();
   void refusesWrongInput();
-  void refusesSeveralStarts();
+  void beginsFromSeveralDesigns();
 };
 
 /// All masses count: 0.01 kg of the sheet, 0.2 kg at its corner.
@@ -125,6 +128,78 @@ void TestDesignConstraints::keepsToAStrain() {
           1e-5);
 }
 
+/// The von Mises stress of the sheet's two triangles, in small steps of time, from the definition: F, S, F S Fᵀ / J.
+double largestStressOf(const scene::HarmonicResult& motion) {
+  const double young = 1e4, nu = 0.3;
+  double largest = 0;
+  for (int i = 0; i < 4096; ++i) {
+    const auto x = motion.problem->configurationAt(motion.points[0].z, 2 * M_PI * i / 4096);
+    const auto at = [&](int node) { return Eigen::Vector2d(x.segment<2>(2 * (2 + node))); };
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, std::array{1, 3, 2}}) {
+      Eigen::Matrix2d rest, now;
+      const Eigen::Matrix<double, 2, 4> corners = (Eigen::Matrix<double, 2, 4>() << 5, 6, 5, 6, 0, 0, 1, 1).finished();
+      rest << corners.col(b) - corners.col(a), corners.col(c) - corners.col(a);
+      now << at(b) - at(a), at(c) - at(a);
+      const Eigen::Matrix2d f = now * rest.inverse(), strain = 0.5 * (f.transpose() * f - Eigen::Matrix2d::Identity());
+      const Eigen::Matrix2d s =
+          young / (1 - nu * nu) * ((1 - nu) * strain + nu * strain.trace() * Eigen::Matrix2d::Identity());
+      const double thinning = std::sqrt(1 - 2 * nu / (1 - nu) * strain.trace());
+      const Eigen::Matrix2d cauchy = f * s * f.transpose() / (f.determinant() * thinning);
+      const double xx = cauchy(0, 0), yy = cauchy(1, 1), xy = cauchy(0, 1);
+      largest = std::max(largest, std::sqrt(xx * xx - xx * yy + yy * yy + 3 * xy * xy));
+    }
+  }
+  return largest;
+}
+
+void TestDesignConstraints::keepsToAStress() {
+  const auto chooseCorner = [](Json& study) {
+    study["parameters"] = {"corner"};
+    study["objectives"][0]["probes"] = {"corner"};
+  };
+  const auto result = run(sceneWith(Json::parse(R"([{"type": "stress", "at_most": "0.12 kPa"}])"), chooseCorner));
+  QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+  const Json constraint = result->summary()["constraints"][0];
+  const double stress = constraint["value"], smooth = constraint["smooth_value"];
+  QVERIFY2(std::abs(smooth - 120) < 1e-3, qPrintable(QString::number(smooth)));
+  QVERIFY(stress <= smooth && stress > 120 * (1 - std::log(2 * 128.0) / 300));
+  QVERIFY(constraint["value_before"] < 0.9 * stress);
+  const double expected = largestStressOf(*result->motionOf(result->after()));
+  QVERIFY2(std::abs(stress / expected - 1) < 1e-4, qPrintable(QString::number(stress / expected)));
+}
+
+void TestDesignConstraints::refusesRods() {
+  const std::string wire = R"({
+    "schema_version": 1, "dimension": 3,
+    "geometry": [{"name": "wire", "type": "mesh", "points": [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
+                  "segments": [[0, 1], [1, 2]]},
+                 {"name": "leaf", "type": "mesh", "points": [[5, 0, 0], [6, 0, 0], [5, 1, 0]], "triangles": [[0, 1, 2]]}],
+    "materials": [{"name": "steel", "type": "isotropic", "density": 8000, "young_modulus": 1e9, "poisson_ratio": 0.3}],
+    "elements": [{"name": "rod", "type": "rod", "geometry": "wire", "diameter": 0.01},
+                 {"name": "skin", "type": "membrane", "geometry": "leaf", "thickness": 0.01}],
+    "point_masses": [{"name": "mass", "at": {"geometry": "wire", "nodes": [2]}, "mass": 2}],
+    "boundary_conditions": [{"name": "wall", "type": "locked", "at": {"geometry": "wire", "nodes": [0, 1]}},
+                            {"name": "frame", "type": "locked", "at": {"geometry": "leaf", "nodes": [0, 1]}}],
+    "probes": [{"name": "end", "at": {"geometry": "wire", "nodes": [2]}}],
+    "studies": [{"name": "design", "type": "design", "frequency": 1.2, "harmonics": 3,
+                 "objectives": [{"type": "amplitude", "probes": ["end"]}],
+                 "constraints": [{"type": "stress", "at_most": 1}]}]
+  })";
+  const auto make = [](const Scene& scene) {
+    return scene::StudyRegistry::instance().make(scene, scene::buildModel(scene), "design");
+  };
+  try {
+    make(Scene::parse(wire, "/nowhere", "test.json"));
+    QFAIL("nothing was refused");
+  } catch (const base::InputError& error) {
+    QCOMPARE(error.location(), "test.json: /studies/0/constraints/0");
+    QVERIFY(QString::fromStdString(error.problem()).contains("rod"));
+  }
+  Json json = Json::parse(wire);
+  json["studies"][0]["constraints"][0]["geometries"] = {"leaf"};
+  QVERIFY(make(Scene::parse(json.dump(), "/nowhere", "test.json")) != nullptr);
+}
+
 void TestDesignConstraints::writesConstraints() {
   const auto result = run(sceneWith(Json::parse(R"([{"type": "total_mass", "at_most": 0.75, "at_least": 0.5},
                                     {"type": "clearance", "probes": ["body", "post"], "at_least": "-1 m",
@@ -168,6 +243,8 @@ void TestDesignConstraints::refusesWrongInput_data() {
   row("bounds beside an equation", R"({"type": "total_mass", "equal": 1, "at_most": 2})", "/equal");
   row("bounds that cross", R"({"type": "total_mass", "at_least": 3, "at_most": 2})", "/at_least");
   row("nothing to strain", R"({"type": "strain", "at_most": 0.1, "geometries": ["body"]})", "");
+  row("nothing to stress", R"({"type": "stress", "at_most": 100, "geometries": ["body"]})", "");
+  row("no stress", R"({"type": "stress", "at_most": 0})", "/at_most");
   row("unknown geometry", R"({"type": "strain", "at_most": 0.1, "geometries": ["skin"]})", "/geometries/0");
   row("from nothing", R"({"type": "clearance", "probes": ["body"]})", "");
   row("no direction", R"({"type": "clearance", "probes": ["body"], "plane": {"point": [0, 0], "normal": [0, 0]}})",
@@ -187,14 +264,17 @@ void TestDesignConstraints::refusesWrongInput() {
   }
 }
 
-void TestDesignConstraints::refusesSeveralStarts() {
-  try {
-    run(sceneWith(
-        Json::array({{{"type", "total_mass"}, {"at_most", 0.75}}}), [](Json& study) { study["starts"] = 2; }));
-    QFAIL("nothing was refused");
-  } catch (const base::InputError& error) {
-    QCOMPARE(error.location(), "test.json: /studies/0/starts");
-  }
+/// The scene's own mass is above that of the resonance, 0.7, and designs between the bounds lie on both sides.
+void TestDesignConstraints::beginsFromSeveralDesigns() {
+  const auto result = run(
+      sceneWith(Json::array({{{"type", "total_mass"}, {"at_most", 0.75}}}), [](Json& study) { study["starts"] = 3; }));
+  QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+  QVERIFY(std::abs(result->after().values[0] - (0.75 - 0.21)) < 1e-5);
+  const Json summary = result->summary();
+  QCOMPARE(summary["starts"].size(), std::size_t(3));
+  for (const Json& start : summary["starts"]) QVERIFY(start["constraint_violation"].get<double>() <= 1e-6);
+  QVERIFY(summary["constraint_violation"].get<double>() <= 1e-6);
+  QVERIFY(std::abs(summary["constraints"][0]["value"].get<double>() - 0.75) < 1e-5);
 }
 
 QTEST_GUILESS_MAIN(TestDesignConstraints)

@@ -23,6 +23,38 @@ class TestModelBuilder : public QObject {
   }
 
  private slots:
+  /// A pair beside the plane x = 1, one of three nodes, and one on the plane: one parameter for the masses of all.
+  void mirrorImagesShareTheirMass() {
+    const std::string text = R"({"schema_version": 1, "dimension": 2,
+      "geometry": [{"name": "a", "type": "points", "points": [[0, 0], [2, 0], [1, 3], [2, 1.1], [0, 1]]}],
+      "springs": [{"name": "s", "type": "grounded", "at": {"nodes": [0, 1, 2, 3, 4]}, "direction": [1, 1],
+                   "coefficients": [1]}],
+      "point_masses": [{"name": "feet", "at": {"nodes": [0, 2]}, "mass": 0.5,
+                        "mirrored": {"point": [1, 7], "normal": [-3, 0]}},
+                       {"name": "hands", "at": {"nodes": [4]}, "mass": 0.1,
+                        "mirrored": {"point": ["1 m", 0], "normal": [1, 0]}}]})";
+    const auto model = build(text);
+    QCOMPARE(model->pointMasses[0].nodes, (std::vector<int>{0, 1, 2}));
+    QCOMPARE(model->pointMasses[1].nodes, (std::vector<int>{3, 4}));
+    QCOMPARE(model->parameters.size(), std::size_t(2));
+    const Model heavier = model->parameters[0]->withValue(*model, 0.7);
+    const mechanics::Matrix mass(heavier.massMatrix());
+    for (const int node : {0, 1, 2}) QCOMPARE(mass(2 * node, 2 * node), 0.7);
+    for (const int node : {3, 4}) QCOMPARE(mass(2 * node, 2 * node), 0.1);
+    const auto refusal = [&](const std::string& from, const std::string& to) {
+      std::string changed = text;
+      changed.replace(changed.find(from), from.size(), to);
+      try {
+        build(changed);
+      } catch (const base::InputError& error) {
+        return error.location();
+      }
+      return std::string();
+    };
+    QVERIFY(refusal("\"normal\": [-3, 0]", "\"normal\": [0, 0]").ends_with("/point_masses/0/mirrored/normal"));
+    QVERIFY(refusal("[1, 7]", "[5, 7]").ends_with("/point_masses/0/mirrored"));
+  }
+
   void buildsEveryPart() {
     const auto model = build(test::fullScene);
     QCOMPARE(model->nodeCount(), 15 + 2);
