@@ -11,6 +11,7 @@
 #include "core/scene/linear_studies.hpp"
 #include "core/scene/macro_studies.hpp"
 #include "core/scene/resumable_study.hpp"
+#include "core/scene/second_frequency.hpp"
 #include "core/scene/sharded_study.hpp"
 #include "core/scene/study_specs.hpp"
 #include "core/scene/time_studies.hpp"
@@ -96,6 +97,7 @@ std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<c
       if (scene.normalized()["geometry"].empty() && !options.contains("cell"))
         throw base::InputError(
             scene.name() + ": /geometry", "The scene has no nodes, which the study " + quote(studyName) + " needs.");
+      checkSecondFrequency(scene, options);
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
     }
   std::string known;
