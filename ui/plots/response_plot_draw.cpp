@@ -226,11 +226,8 @@ void ResponsePlot::placeLabels() {
   std::stable_sort(order.begin(), order.end(), [](const Landmark* a, const Landmark* b) {
     return a->peak != b->peak ? a->peak : a->amplitude > b->amplitude;
   });
-  // The solved ones come first, and where the highest predicted peak is said in any case after them.
-  std::vector<Landmark*> predicted;
   for (Landmark& landmark : p.predictedLandmarks)
-    if (!landmark.text.isEmpty()) predicted.push_back(&landmark);
-  order.insert(order.end(), predicted.begin(), predicted.end());
+    if (!landmark.text.isEmpty()) order.push_back(&landmark);
   std::vector<QRectF> taken;
   if (p.chip->isVisible()) taken.push_back(QRectF(p.chip->geometry()).adjusted(-8, -4, 8, 4));
   const auto keepClear = [&](const std::optional<ResponsePlace>& place, double reach) {
@@ -241,6 +238,8 @@ void ResponsePlot::placeLabels() {
   keepClear(p.shownPlace, 10);
   keepClear(p.predictedPlace, 10);
   for (const InsetItem& inset : p.insets) keepClear(inset.place, 6);  // where leaders begin
+  for (const Landmark* landmark : order)
+    if (landmark->peak) keepClear(ResponsePlace{landmark->omega, landmark->amplitude}, 5);
   if (p.predictedPlace) taken.push_back(predictedText);
   const QRectF frame = p.plot->axisRect()->rect();
   for (Landmark* landmark : order) {
