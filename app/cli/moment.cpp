@@ -100,10 +100,13 @@ Moment findMoment(const MotionOptions& options) {
   moment.z = point.z;
   moment.period = 2 * std::numbers::pi * point.drivePeriods / point.omega;
   moment.tau = 2 * std::numbers::pi * std::fmod(time.value_or(0) / moment.period, 1);
+  const math::HarmonicBasis& basis = moment.problem->basis();
   moment.caption += (moment.caption.empty() ? "" : "\n") + study +
                     ", ω = " + base::formatQuantity(point.omega, base::dimensions::angularFrequency) +
-                    ", H = " + std::to_string(result->problem->basis().harmonics()) + ", residual " +
-                    base::formatQuantity(point.residual, {});
+                    (basis.hasTwoFrequencies() ? " and " + base::formatQuantity(basis.ratio() * point.omega,
+                                                                                base::dimensions::angularFrequency)
+                                               : std::string()) +
+                    ", H = " + std::to_string(basis.order()) + ", residual " + base::formatQuantity(point.residual, {});
   if (result->termination != base::TerminationType::converged)
     moment.caption += " (" + std::string(base::toString(result->termination)) + ")";
   return moment;

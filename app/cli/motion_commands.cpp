@@ -49,7 +49,8 @@ ExitStatus exportAnimation(const MotionOptions& options, const FilmSettings& set
     animation = *scene::clothAnimation(*moment.cloth->problem, moment.cloth->frames, context);
     for (double& time : animation.times) time /= settings.speed.value_or(1);
   } else {
-    const double seconds = settings.speed ? moment.period / *settings.speed : secondsPerPeriod;
+    const double seconds =
+        settings.speed ? moment.period / *settings.speed : secondsPerPeriod * moment.problem->basis().periods();
     const int steps = settings.picturesPerSecond
                           ? std::max(1, static_cast<int>(std::lround(*settings.picturesPerSecond * seconds)))
                           : scene::animationSteps(seconds);

@@ -42,8 +42,9 @@ ExitStatus exportParts(const MotionOptions& options, const PartsSettings& settin
   scene::PartsSource source{scene, *moment.model, moment.model->restPositions, {}};
   if (moment.problem) {
     source.positions = moment.problem->configurationAt(moment.z, moment.tau);
-    for (int i = 0; i < motionSamples; ++i)
-      source.motion.push_back(moment.problem->configurationAt(moment.z, 2 * std::numbers::pi * i / motionSamples));
+    const int samples = motionSamples * moment.problem->basis().periods();
+    for (int i = 0; i < samples; ++i)
+      source.motion.push_back(moment.problem->configurationAt(moment.z, 2 * std::numbers::pi * i / samples));
   }
   base::ExecutionContext context;
   const scene::PartsReport report = *scene::exportParts(source, request, options.out, context);  // nobody cancels

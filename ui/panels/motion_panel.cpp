@@ -48,7 +48,8 @@ MotionPanel::MotionPanel(jobs::MotionSession& session, QWidget* parent) : QWidge
 }
 
 void MotionPanel::setTau(double tau) {
-  if (isVisible() && session_.shown()) plot_->setInstant(tau / session_.shown()->motion.omega);
+  const auto& shown = session_.shown();
+  if (isVisible() && shown) plot_->setInstant(shown->problem->drivePeriods() * tau / shown->motion.omega);
 }
 
 void MotionPanel::showEvent(QShowEvent* event) {

@@ -176,7 +176,7 @@ std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& r
 std::optional<Film> filmMotion(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
                                const mechanics::Vector& z, double period, const FilmOptions& options,
                                const std::filesystem::path& file, base::ExecutionContext& context) {
-  const double speed = checkedSpeed(options, period / secondsPerPeriod);
+  const double speed = checkedSpeed(options, period / (secondsPerPeriod * problem->basis().periods()));
   const FrameRate rate = frameRate(options.picturesPerSecond.value_or(motionRate));
   const int each = checkedCount(std::round(period / speed * rate.perSecond()));
   const int count = checkedCount(static_cast<double>(each) * std::max(1, options.periods));

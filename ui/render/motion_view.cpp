@@ -285,6 +285,8 @@ void MotionView::setTau(double tau) {
   parts_->showPose();
 }
 
+int MotionView::periods() const { return parts_->problem ? parts_->problem->basis().periods() : 1; }
+
 double MotionView::tau() const { return parts_->tau; }
 
 void MotionView::setSelectedNode(std::optional<int> node) {

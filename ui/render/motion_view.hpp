@@ -49,6 +49,8 @@ class MotionView final : public View {
   /// The place in the period, in radians.
   void setTau(double tau);
   double tau() const;
+  /// Periods that τ goes through from 0 to 2π: more than 1 of a motion with two driving frequencies.
+  int periods() const;
 
   /// Its trajectory is drawn, like those of the model's probes.
   void setSelectedNode(std::optional<int> node);

@@ -9,6 +9,14 @@ namespace pliant::render {
 namespace {
 
 constexpr int curveSamples = 256;
+constexpr int samplesOfSpannedPeriod = 64;
+
+/// Of a closed curve, or of one over the span of a motion with two frequencies, whose ends are close to one another.
+int samplesOf(const math::HarmonicBasis& basis) {
+  if (!basis.hasTwoFrequencies()) return curveSamples;
+  return std::max(
+      curveSamples, static_cast<int>(samplesOfSpannedPeriod * basis.periods() * std::max(1.0, basis.ratio())));
+}
 constexpr int fewestInstants = 64;
 
 }  // namespace
@@ -18,14 +26,14 @@ using mechanics::Matrix;
 std::vector<Points> nodePaths(const harmonic::HarmonicBalanceProblem& problem, const Matrix& trajectories,
                               const std::vector<int>& nodes) {
   const math::HarmonicBasis& basis = problem.basis();
-  Matrix interpolation(curveSamples, basis.size());
-  for (int i = 0; i < curveSamples; ++i)
-    interpolation.row(i) = basis.valuesAt(2.0 * std::numbers::pi * i / curveSamples).transpose();
+  const int count = samplesOf(basis);
+  Matrix interpolation(count, basis.size());
+  for (int i = 0; i < count; ++i) interpolation.row(i) = basis.valuesAt(2.0 * std::numbers::pi * i / count).transpose();
   const int dimension = problem.model().dimension;
   std::vector<Points> paths;
   for (const int node : nodes) {
     const Matrix samples = trajectories.middleCols(node * dimension, dimension);
-    Points path = Points::Zero(3, curveSamples);
+    Points path = Points::Zero(3, count);
     path.topRows(dimension) = (interpolation * (basis.analysis() * samples)).transpose();
     paths.push_back(std::move(path));
   }

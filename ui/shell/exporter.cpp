@@ -70,7 +70,7 @@ FrameExport filmExport(const std::filesystem::path& file, const jobs::MotionSess
     };
   const jobs::ShownMotion& shown = *session.shown();
   const double period = 2 * std::numbers::pi * shown.problem->drivePeriods() / shown.motion.omega;
-  film.speed = viewport.speed() * period;
+  film.speed = viewport.speed() * period / shown.problem->basis().periods();
   return [file, film, period, problem = shown.problem, z = shown.motion.z](base::ExecutionContext& context) {
     const auto made = render::filmMotion(problem, z, period, film, file, context);
     return made ? made->files : 0;
@@ -86,7 +86,7 @@ FrameExport animationExport(const std::filesystem::path& file, const jobs::Motio
       return animation ? 1 : 0;
     };
   const jobs::ShownMotion& shown = *session.shown();
-  return [file, seconds = 1 / viewport.speed(), problem = shown.problem,
+  return [file, seconds = shown.problem->basis().periods() / viewport.speed(), problem = shown.problem,
           z = shown.motion.z](base::ExecutionContext& context) {
     if (context.cancelRequested()) return 0;
     geometry::writeAnimation(scene::periodAnimation(*problem, z, scene::animationSteps(seconds), seconds), file);

@@ -28,8 +28,9 @@ PartsExport partsExport(const QString& file, const document::Document& document,
     positions = shown->problem->configurationAt(shown->motion.z, viewport.tau());
     motion = [problem = shown->problem, z = shown->motion.z] {
       std::vector<mechanics::Vector> moments;
-      for (int i = 0; i < samplesOfPeriod; ++i)
-        moments.push_back(problem->configurationAt(z, 2 * std::numbers::pi * i / samplesOfPeriod));
+      const int samples = samplesOfPeriod * problem->basis().periods();
+      for (int i = 0; i < samples; ++i)
+        moments.push_back(problem->configurationAt(z, 2 * std::numbers::pi * i / samples));
       return moments;
     };
   }

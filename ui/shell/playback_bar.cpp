@@ -88,7 +88,10 @@ void PlaybackBar::showTau(double tau) {
   if (ofCloth_) return;
   const QSignalBlocker block(scrub_);
   scrub_->setValue(static_cast<int>(std::lround(tau / turn * steps)) % steps);
-  place_->setText(QStringLiteral("τ = %1°").arg(std::lround(tau / turn * 360) % 360));
+  if (const int periods = viewport_.motionView().periods(); periods > 1)
+    place_->setText(tr("period %1 of %2").arg(periods * tau / turn, 0, 'f', 1).arg(periods));
+  else
+    place_->setText(QStringLiteral("τ = %1°").arg(std::lround(tau / turn * 360) % 360));
 }
 
 void PlaybackBar::showTime(double time) {

@@ -196,7 +196,8 @@ void TargetLink::showState() {
   }
   QString text = target->controlPoints.cols() > 0 ? tr("%1 points").arg(target->controlPoints.cols())
                                                   : tr("%1 places").arg(target->places.cols());
-  if (const auto& shown = session_.shown(); shown && extentOf(padded(target->places)) > 0) {
+  if (const auto& shown = session_.shown();
+      shown && !shown->problem->basis().hasTwoFrequencies() && extentOf(padded(target->places)) > 0) {
     harmonic::PathGoal goal;
     goal.paths = {{target->node, harmonic::pathCoefficients(target->places, shown->problem->basis().harmonics())}};
     goal.matchPlace = target->matchPlace;

@@ -131,9 +131,13 @@ void ViewportLink::showPrediction() {
 QString ViewportLink::caption() const {
   const jobs::ShownMotion& shown = *session_.shown();
   QString text = document_.title();
+  const math::HarmonicBasis& basis = shown.problem->basis();
+  QString frequencies = plots::formatFrequency(shown.motion.omega, false);
+  if (basis.hasTwoFrequencies())
+    frequencies = tr("%1 and %2").arg(frequencies, plots::formatFrequency(basis.ratio() * shown.motion.omega, false));
   text += QStringLiteral("\nω = %1,  H = %2,  residual %3,  correction %4")
-              .arg(plots::formatFrequency(shown.motion.omega, false))
-              .arg(shown.problem->basis().harmonics())
+              .arg(frequencies)
+              .arg(basis.order())
               .arg(shown.motion.report.residual(), 0, 'g', 2)
               .arg(shown.motion.report.correction(), 0, 'g', 2);
   return text;

@@ -304,7 +304,7 @@ void Viewport::advance() {
   if (showsCloth())
     advanceCloth(seconds);
   else
-    setTau(motion_.tau() + fullTurn * speed_ * seconds);
+    setTau(motion_.tau() + fullTurn * speed_ * seconds / motion_.periods());
 }
 
 void Viewport::redraw(bool moving) {

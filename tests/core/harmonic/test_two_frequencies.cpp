@@ -71,9 +71,8 @@ class Oscillator {
     v_ += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
     ++count_;
   }
-  /// Until transients have died away to e^{-35} of themselves.
   void settle() {
-    while (time() < 350) advance();
+    while (time() < 350) advance();  // transients die away to e^{-35} of themselves
   }
 
  private:
@@ -177,8 +176,7 @@ void TestTwoFrequencies::agreesWithRungeKutta() {
   QVERIFY2(before < 3e-4, qPrintable(QString::number(before)));
 }
 
-/// 3 : 2 both ways. The series in both phases holds the motions for all shifts between the two drives, so it needs as
-/// many orders as the worst of them.
+/// 3 : 2 both ways. The series in both phases holds the motions for all shifts between the two drives.
 void TestTwoFrequencies::wholeRatioIsThatOfOrders() {
   auto model = std::make_shared<Model>(*duffing(zeta, hardening, 0));
   model->forces = {{"low", {0}, vector2(1, 0), {{{2, low, 0}}}}, {"high", {0}, vector2(1, 0), {{{3, high, phase}}}}};
