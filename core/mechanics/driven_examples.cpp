@@ -30,8 +30,10 @@ Model shakenNodes(double value) {
   for (const int node : {1, 2})
     for (const Vector& direction : {x, y})
       model.energies.push_back(makeGroundedSpring(2, node, rest(node), direction, {{4, 0, 10}}));
-  const ShellMaterial sheet{
-      .youngModulus = 1e4 * value, .poissonRatio = 0.3, .density = 1, .thickness = 1e-3 * (1 + 0.1 * value)};
+  const ShellMaterial sheet{.youngModulus = 1e4 * (1 + 0.1 * value),
+                            .poissonRatio = 0.3,
+                            .density = 1,
+                            .thickness = 1e-3 * (1 + 0.1 * value)};
   model.energies.push_back(makeMembrane(2, model.restPositions, {{0, 1, 2}}, sheet));
   model.pointMasses = {{"first", {1}, 0.5 + 0.1 * value * value, 0.1, 3}, {"second", {2}, 0.4, 0.1, 3}};
   model.gravity = vectorOf(0.3, -1);

@@ -43,9 +43,8 @@ void ElementStress::addBodies(const Energy& energy, int index, const std::vector
   for (const auto& corners : chosen) wanted.insert(sortedCorners(corners));
   for (int e = 0; e < made->elementCount(); ++e) {
     Body<D> body;
-    for (int corner = 0; corner <= D; ++corner)
-      body.nodes[static_cast<std::size_t>(corner)] =
-          made->elementCoordinates(e)[static_cast<std::size_t>(corner * dimension_)] / dimension_;
+    for (std::size_t corner = 0; corner <= D; ++corner)
+      body.nodes[corner] = made->elementCoordinates(e)[corner * static_cast<std::size_t>(dimension_)] / dimension_;
     if (!wanted.contains(sortedCorners(body.nodes))) continue;
     const Element& element = made->elements()[static_cast<std::size_t>(e)];
     const Square<D> restEdges = restMetricOf(element).llt().matrixU();

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/mechanics/design_parameter.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/scene/model_builder.hpp"
 #include "ui/document/relocation.hpp"
 
@@ -38,7 +39,11 @@ std::shared_ptr<const mechanics::Model> changedModel(const LoadedScene& before, 
     return std::make_shared<mechanics::Model>(
         parameter->withValue(*before.model, valueIn(after, pointer).get<double>()));
   }
-  return sameModel(after, before.scene) ? before.model : scene::buildModel(after);
+  // Drive frequencies are parameters that stand in studies, which may come, go, or change places.
+  const bool mayMoveParameters = pointer.starts_with("/studies") &&
+                                 std::count(pointer.begin(), pointer.end(), '/') <= 2 &&
+                                 mechanics::driveFrequency(*before.model);
+  return sameModel(after, before.scene) && !mayMoveParameters ? before.model : scene::buildModel(after);
 }
 
 /// The scene with `value` at `pointer`, on any thread. Throws base::InputError.

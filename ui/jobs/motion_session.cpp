@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/harmonic/amplitude.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/joint_parameter.hpp"
 #include "ui/jobs/comparable_scenes.hpp"
 #include "ui/jobs/node_correspondence.hpp"
@@ -35,6 +36,21 @@ bool fits(const ShownMotion& shown, const document::Document& document) {
   if (solved.dimension != present.dimension || solved.restPositions.size() != present.restPositions.size())
     return false;
   return areComparable(shown.scene, document.scene(), solved);
+}
+
+/// Whether a parameter at this pointer is one of the shown motion's own.
+bool hasParameterAt(const ShownMotion& shown, const std::string& pointer) {
+  const auto& parameters = shown.problem->model().parameters;
+  return std::any_of(
+      parameters.begin(), parameters.end(), [&](const auto& parameter) { return parameter->pointer() == pointer; });
+}
+
+/// The frequency that the document asks for, if the shown motion has it among its parameters.
+std::optional<double> wantedFrequency(const ShownMotion& shown, const document::Document& document) {
+  for (const auto& parameter : shown.problem->model().parameters)
+    if (mechanics::isDriveFrequency(*parameter))
+      if (const auto json = document.valueAt(parameter->pointer()); json.is_number()) return json.get<double>();
+  return std::nullopt;
 }
 
 }  // namespace
@@ -243,19 +259,21 @@ void MotionSession::solveAt(double omega, const std::string& name, int nearestPo
 
 void MotionSession::update() {
   if (document_.isEmpty()) return;
-  const auto model = document_.model();
   if (!shown_) {
     runAll();
     return;
   }
+  const auto model = mechanics::withoutDriveFrequencies(
+      document_.model(), [this](const std::string& pointer) { return hasParameterAt(*shown_, pointer); });
+  const double wanted = wantedFrequency(*shown_, document_).value_or(shown_->motion.omega);
   follow_ = false;
   endPreview();
   const double predicted = predictedAmplitude().value_or(std::numeric_limits<double>::quiet_NaN());
   Job job;
   job.topic = motionTopic;
-  job.title = tr("Update of the motion at %1 rad/s").arg(shown_->motion.omega, 0, 'g', 4);
+  job.title = tr("Update of the motion at %1 rad/s").arg(wanted, 0, 'g', 4);
   job.work = [this, model, scene = document_.scene(), basis = shown_->problem->basis(),
-              drivePeriods = shown_->problem->drivePeriods(), omega = shown_->motion.omega,
+              drivePeriods = shown_->problem->drivePeriods(), omega = wanted,
               start = prediction_.value_or(shown_->motion.z),
               predicted](base::ExecutionContext& context, const Publish&) -> Delivery {
     HarmonicBalanceProblem problem(model, basis, drivePeriods);
@@ -281,6 +299,8 @@ void MotionSession::update() {
 void MotionSession::refreshStaleness() {
   const bool wasComparable = std::exchange(comparable_, true);
   stale_ = shown_ && !document::sameModel(shown_->scene, document_.scene());
+  if (shown_ && wantedFrequency(*shown_, document_) != mechanics::driveFrequency(shown_->problem->model()))
+    stale_ = true;
   if (stale_) comparable_ = areComparable(shown_->scene, document_.scene(), shown_->problem->model());
   refreshPrediction();
   if (comparable_ != wasComparable) refreshEffects();
