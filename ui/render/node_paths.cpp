@@ -10,12 +10,13 @@ namespace {
 
 constexpr int curveSamples = 256;
 constexpr int samplesOfSpannedPeriod = 64;
+constexpr int mostSamples = 8192;
 
 /// Of a closed curve, or of one over the span of a motion with two frequencies, whose ends are close to one another.
 int samplesOf(const math::HarmonicBasis& basis) {
   if (!basis.hasTwoFrequencies()) return curveSamples;
-  return std::max(
-      curveSamples, static_cast<int>(samplesOfSpannedPeriod * basis.periods() * std::max(1.0, basis.ratio())));
+  const double wanted = samplesOfSpannedPeriod * basis.periods() * std::max(1.0, basis.ratio());
+  return static_cast<int>(std::clamp<double>(wanted, curveSamples, mostSamples));
 }
 constexpr int fewestInstants = 64;
 
