@@ -12,6 +12,9 @@ namespace pliant::scene {
 
 namespace {
 
+/// Above which friction at rest is warned of, see SheetFriction.
+constexpr double largestLag = 0.05;
+
 Json columnsOf(const Eigen::Matrix3Xd& vectors) {
   Json list = Json::array();
   for (Eigen::Index i = 0; i < vectors.cols(); ++i) list.push_back({vectors(0, i), vectors(1, i), vectors(2, i)});
@@ -136,6 +139,9 @@ std::vector<std::string> MacroResult::warnings() const {
   std::vector<std::string> list;
   if (clamped.empty() && bodies.empty() && !isMotion())
     list.emplace_back("Nothing is clamped: only limits and inertia say where the sheet is.");
+  if (!isMotion() && state.friction.lag > largestLag)
+    list.push_back("Friction has not settled: with the contacts of the end it would change by " +
+                   std::to_string(std::lround(100 * state.friction.lag)) + " % of the largest it can be.");
   if (placed && placed->detail.termination != base::TerminationType::converged)
     list.push_back("Elements are not all where the sheet wants them: " + placed->detail.message);
   if (placed && !placed->check.holds())

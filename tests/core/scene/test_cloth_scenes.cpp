@@ -205,6 +205,10 @@ class TestClothScenes : public QObject {
         << "\"type\": \"locked\", \"at\": {\"nearest\": [0, 0.2, 0]}, \"coordinates\": [\"x\"]"
         << "motion"
         << "all three coordinates";
+    QTest::addRow("friction") << "\"schema_version\": 1,"
+                              << "\"schema_version\": 1, \"contact\": {\"friction\": 0.3},"
+                              << "motion"
+                              << "/contact/friction: Studies of cloth know no friction";
     QTest::addRow("consistent masses") << "\"schema_version\": 1,"
                                        << "\"schema_version\": 1, \"mass_matrix\": \"consistent\","
                                        << "motion"

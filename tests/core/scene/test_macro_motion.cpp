@@ -138,6 +138,33 @@ class TestMacroMotion : public QObject {
     QVERIFY_THROWS_EXCEPTION(base::InputError, scene::exportPlaced(*again, 2e-4, 1, file, context));
   }
 
+  /// Two arms of strains that meet in a square around rest: from the middle of what they enclose not all is seen.
+  void limitsMayBeSeenFromElsewhere() {
+    QTemporaryDir directory;
+    std::ofstream file(directory.filePath("limits.obj").toStdString());
+    constexpr std::array<std::array<double, 2>, 6> corners = {
+        {{-0.02, -0.02}, {0.3, -0.02}, {0.3, 0.02}, {0.02, 0.02}, {0.02, 0.2}, {-0.02, 0.2}}};
+    for (const double height : {-0.02, 0.02})
+      for (const auto& [xx, yy] : corners) file << "v " << xx << " " << yy << " " << height << "\n";
+    for (int i = 1; i < 5; ++i) file << "f 1 " << i + 2 << " " << i + 1 << "\nf 7 " << i + 7 << " " << i + 8 << "\n";
+    for (int i = 1; i <= 6; ++i) {
+      const int next = i % 6 + 1;
+      file << "f " << i << " " << next << " " << next + 6 << "\nf " << i << " " << next + 6 << " " << i + 6 << "\n";
+    }
+    file.close();
+    const std::string text = R"({
+      "schema_version": 1,
+      "interlocking_cells": [{"name": "mail", "type": "threefold"}],
+      "studies": [{"name": "study", "type": "macro_equilibrium", "shape": "rectangle", "size": ["80 mm", "40 mm"],
+        "rings": 4, "stretch_limits": "limits.obj", "gravity": [100, 0, 0],
+        "clamps": [{"point": ["-40 mm", 0], "radius": "25 mm"}]}]})";
+    const auto result = run(parsed(text, directory.path().toStdString()));
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    QVERIFY(result->state.violation <= 0);
+    // Along the longer arm far beyond what is seen from the square.
+    QVERIFY((result->state.strains.stretch.row(0) + result->state.strains.stretch.row(1)).maxCoeff() > 0.2);
+  }
+
   void elementsOfAMotionStandOnItsLastFrame() {
     const std::string text = R"({
       "schema_version": 1,
