@@ -1,4 +1,5 @@
 #include <QPushButton>
+#include <QSplitter>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -91,7 +92,16 @@ QString ChartPanel::designText(int design) const {
 
 void ChartPanel::refreshCard() {
   const bool fitted = fit_ && !fit_->calibration.history.empty();
-  card_->setVisible(fitted || chosen_ >= 0);
+  const bool visible = fitted || chosen_ >= 0;
+  if (visible && card_->isHidden()) {
+    // Its own width as far as the charts can spare it.
+    const int whole = split_->width(), own = std::min(card_->sizeHint().width(), 45 * whole / 100);
+    QList<int> sizes(split_->count(), (whole - own) / std::max(1, split_->count() - 1));
+    sizes.last() = own;
+    card_->show();
+    split_->setSizes(sizes);
+  }
+  card_->setVisible(visible);
   if (fitted)
     showFit(*fit_);
   else if (chosen_ >= 0)

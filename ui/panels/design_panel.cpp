@@ -58,7 +58,7 @@ DesignPanel::DesignPanel(document::Document& document, QWidget* parent) : QWidge
   auto* head = new QHBoxLayout;
   head->setContentsMargins(0, 0, 6, 0);
   head->addWidget(targets_, 1);
-  head->addWidget(choice_);
+  head->addWidget(choice_, 0, Qt::AlignVCenter);
   whole->addLayout(head);
   pages_ = new QStackedLayout;
   whole->addLayout(pages_, 1);

@@ -44,7 +44,6 @@ void ValueCard::setTable(const QStringList& headers, const std::vector<QStringLi
       table_->setItem(row, column, item);
     }
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
 }
 
 }  // namespace pliant::panels

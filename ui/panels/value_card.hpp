@@ -25,7 +25,7 @@ class ValueCard final : public QWidget {
   QTableWidget* table() const { return table_; }
   QPushButton* takeButton() const { return take_; }
 
-  QSize sizeHint() const override { return {280, 200}; }
+  QSize sizeHint() const override { return {340, 200}; }
   QSize minimumSizeHint() const override { return {180, 120}; }
 
  private:

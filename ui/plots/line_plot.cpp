@@ -86,10 +86,11 @@ void LinePlot::fit() {
     plot_->yAxis->setRange(std::min(0.0, y.lower), 1.12 * std::max(y.upper, 0.0));
   else
     plot_->yAxis->scaleRange(1.12);
-  // Single points are whole at the ends, too.
-  const bool loose =
-      std::any_of(chart_.lines.begin(), chart_.lines.end(), [](const PlotLine& line) { return !line.joined; });
-  if (chart_.fromZero || loose) plot_->xAxis->scaleRange(1.12);
+  // Points are whole at the ends, too.
+  const bool dots =
+      std::any_of(chart_.lines.begin(), chart_.lines.end(), [](const PlotLine& line) { return line.dots; });
+  if (chart_.fromZero || dots) plot_->xAxis->scaleRange(chart_.fromZero ? 1.12 : 1.06);
+  plot_->axisRect()->insetLayout()->setInsetAlignment(0, legendCorner());
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -136,8 +137,7 @@ void LinePlot::redraw() {
   }
   makeItemMarks();
   plot_->legend->setVisible(plot_->legend->itemCount() > 1);
-  plot_->axisRect()->insetLayout()->setInsetAlignment(
-      0, chart_.legendBelow ? Qt::AlignLeft | Qt::AlignBottom : Qt::AlignRight | Qt::AlignTop);
+  plot_->axisRect()->insetLayout()->setInsetAlignment(0, legendCorner());
   applyStyle();
   if (instantSet_) setInstant(shownInstant_);
 }

@@ -76,6 +76,7 @@ class LinePlot final : public QWidget {
  private:
   void redraw();
   void applyStyle();
+  Qt::Alignment legendCorner() const;
   void makeItemMarks();
   void markChosenItem();
   void hover(const QPointF& pixel);

@@ -33,6 +33,29 @@ int LinePlot::itemAt(const QPointF& pixel) const {
   return nearest;
 }
 
+/// Where single points leave most room for it; they lie anywhere, lines begin or end somewhere.
+Qt::Alignment LinePlot::legendCorner() const {
+  const Qt::Alignment usual = chart_.legendBelow ? Qt::AlignLeft | Qt::AlignBottom : Qt::AlignRight | Qt::AlignTop;
+  constexpr double share = 0.6;  // of width and height
+  const QCPRange x = plot_->xAxis->range(), y = plot_->yAxis->range();
+  Qt::Alignment best = usual;
+  int fewest = -1;
+  for (const Qt::Alignment corner : {usual, Qt::AlignLeft | Qt::AlignTop, Qt::AlignRight | Qt::AlignTop,
+                                     Qt::AlignLeft | Qt::AlignBottom, Qt::AlignRight | Qt::AlignBottom}) {
+    int hidden = 0;
+    for (const PlotLine& line : chart_.lines)
+      for (std::size_t i = 0; !line.joined && i < line.x.size(); ++i) {
+        const double right = (line.x[i] - x.lower) / x.size(), up = (line.y[i] - y.lower) / y.size();
+        hidden += (corner & Qt::AlignLeft ? right < share : right > 1 - share) &&
+                  (corner & Qt::AlignTop ? up > 1 - share : up < share);
+      }
+    if (fewest >= 0 && hidden >= fewest) continue;
+    fewest = hidden;
+    best = corner;
+  }
+  return best;
+}
+
 void LinePlot::setChosenItem(int item) {
   if (chosenItem_ == item) return;
   chosenItem_ = item;
