@@ -33,6 +33,12 @@ double largestStrain(const HarmonicBalanceProblem& problem, const Vector& z) {
   if (!mechanics::largestStrain(model, model.restPositions)) return 0;
   const int instants = std::max(fewestInstants, problem.basis().samples());
   double largest = 0;
+  if (problem.basis().hasTwoFrequencies()) {
+    const Matrix positions = problem.trajectories(z);
+    for (Eigen::Index i = 0; i < positions.rows(); ++i)
+      largest = std::max(largest, mechanics::largestStrain(model, positions.row(i).transpose()).value_or(0));
+    return largest;
+  }
   for (int i = 0; i < instants; ++i) {
     const Vector positions = problem.configurationAt(z, 2 * std::numbers::pi * i / instants);
     largest = std::max(largest, mechanics::largestStrain(model, positions).value_or(0));

@@ -1,7 +1,5 @@
 #include "core/harmonic/design_gradient.hpp"
 
-#include <numbers>
-
 #include "core/harmonic/jacobian_solver.hpp"
 #include "core/harmonic/refined_solve.hpp"
 
@@ -29,10 +27,7 @@ double prescribedWork(const HarmonicBalanceProblem& problem, const Matrix& byCoe
   const math::HarmonicBasis& basis = problem.basis();
   const auto derivative = parameter.derivative(problem.model());
   Matrix moved(basis.samples(), problem.model().coordinateCount());
-  for (int i = 0; i < basis.samples(); ++i) {
-    const double tau = 2 * std::numbers::pi * problem.drivePeriods() * i / basis.samples();
-    moved.row(i) = derivative->prescribed(tau).transpose();
-  }
+  for (int i = 0; i < basis.samples(); ++i) moved.row(i) = derivative->prescribed(problem.samplePhases(i)).transpose();
   return (basis.analysis() * moved).cwiseProduct(byCoefficients).sum();
 }
 

@@ -147,6 +147,7 @@ HillExponent bestCopy(const HillExponent& original, const std::vector<HillExpone
 
 Stability floquetStability(const HarmonicBalanceProblem& problem, const JacobianSolver& solver, double omega) {
   Stability stability;
+  if (problem.basis().hasTwoFrequencies()) return stability;
   HillSearch search(problem, solver, omega);
   if (!search.run()) return stability;
   const std::vector<HillExponent> all = search.found();

@@ -32,6 +32,7 @@ struct Stability {
 /// motions with frequencies above H ω the series knows nothing.
 /// The sign of det(∂h/∂z) tells whether the number of real positive exponents is even or odd; where that contradicts
 /// what was found, the search is widened, and the state is unknown if that does not help.
+/// Unknown of two frequencies: disturbances have no period there, and so no multipliers.
 /// `solver` must be linearised (exactly) and factorised at the motion.
 Stability floquetStability(const HarmonicBalanceProblem& problem, const JacobianSolver& solver, double omega);
 /// The same of any solution; factorises ∂h/∂z there. Unknown if it is singular.

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/harmonic/harmonic_jacobian.hpp"
 #include "core/harmonic/steady_drive.hpp"
-#include "core/mechanics/drive_frequency.hpp"
 
 namespace pliant::harmonic {
 
@@ -63,7 +62,12 @@ Matrix stiffnessTimes(const Model& model, const Matrix& x, const Matrix& directi
   return product;
 }
 
-double sampleAngle(int sample, int samples) { return 2 * std::numbers::pi * sample / samples; }
+void requireSecondFrequency(const Model& model, const math::HarmonicBasis& basis) {
+  if (model.hasSecondFrequency() && !basis.hasTwoFrequencies())
+    throw base::InputError("",
+                           "A drive or load has a term of the second frequency, but a motion with one frequency is "
+                           "sought.");
+}
 
 }  // namespace
 
@@ -93,13 +97,14 @@ struct HarmonicBalanceProblem::Structure {
             std::vector<int> coordinateHarmonics_)
       : model(std::move(model_)),
         basis(basis_),
-        drivePeriods(drivePeriods_),
+        drivePeriods(basis.hasTwoFrequencies() ? basis.periods() : drivePeriods_),
         assembler(model),
         massToFree(freeColumns(*model, model->massMatrix())),
         freeMass(freeRows(*model, massToFree)),
         coordinateHarmonics(std::move(coordinateHarmonics_)),
         unknowns(findUnknowns()),
         jacobian(basis, assembler, freeMass, coordinateHarmonics) {
+    requireSecondFrequency(*model, basis);
     const int padded = mechanics::ElasticAssembler::paddedRows(basis.samples());
     synthesis.resize(padded, basis.size());
     for (int i = 0; i < padded; ++i) synthesis.row(i) = basis.synthesis().row(i < basis.samples() ? i : 0);
@@ -123,17 +128,20 @@ struct HarmonicBalanceProblem::Structure {
     return found;
   }
 
-  /// τ of the drive at a sample.
-  double driveAngle(int sample) const {
-    return drivePeriods * sampleAngle(sample < basis.samples() ? sample : 0, basis.samples());
+  /// Of the drive at a sample; those beyond the last one are as the first.
+  math::Phases samplePhases(int sample) const {
+    const math::Phases phases = basis.samplePhases(sample < basis.samples() ? sample : 0);
+    return basis.hasTwoFrequencies() ? phases : math::Phases(drivePeriods * phases.first);
   }
 
   void sampleDrives(int padded) {
     steadyConfiguration = model->restPositions;
     for (const auto& drive : model->drives) {
       const std::vector<int>& driven = drive->coordinates();
-      const int nearest = steadySample(*drive, model->restPositions(driven), basis.samples(), drivePeriods);
-      steadySignals.push_back(drive->signal()(driveAngle(nearest)));
+      std::vector<math::Phases> instants;
+      for (int i = 0; i < basis.samples(); ++i) instants.push_back(samplePhases(i));
+      const int nearest = steadySample(*drive, model->restPositions(driven), instants);
+      steadySignals.push_back(drive->signal()(samplePhases(nearest)));
       drivenCoordinates.insert(drivenCoordinates.end(), driven.begin(), driven.end());
       steadyConfiguration(driven) = drive->place(model->restPositions(driven), steadySignals.back());
     }
@@ -148,12 +156,12 @@ struct HarmonicBalanceProblem::Structure {
     inertiaScale = largest * masses.norm();
   }
 
-  /// A drive's coordinates at τ with `fraction` of its signal's swing, so that what turns as a whole stays whole.
-  Vector drivenPlace(std::size_t drive, double tau, double fraction) const {
+  /// A drive's coordinates at θ with `fraction` of its signal's swing, so that what turns as a whole stays whole.
+  Vector drivenPlace(std::size_t drive, math::Phases phases, double fraction) const {
     const mechanics::PrescribedMotion& motion = *model->drives[drive];
     const double steady = steadySignals[drive];
     return motion.place(
-        model->restPositions(motion.coordinates()), steady + fraction * (motion.signal()(tau) - steady));
+        model->restPositions(motion.coordinates()), steady + fraction * (motion.signal()(phases) - steady));
   }
 
   /// Driven coordinates minus their steady place at the samples: padded N x driven [m].
@@ -166,7 +174,7 @@ struct HarmonicBalanceProblem::Structure {
       const Vector steady = steadyConfiguration(driven);
       for (Eigen::Index i = 0; i < padded; ++i)
         result.row(i).segment(column, count) =
-            (drivenPlace(drive, driveAngle(static_cast<int>(i)), fraction) - steady).transpose();
+            (drivenPlace(drive, samplePhases(static_cast<int>(i)), fraction) - steady).transpose();
       column += count;
     }
     return result;
@@ -178,7 +186,7 @@ struct HarmonicBalanceProblem::Structure {
 
   void sampleLoads() {
     Matrix forces(basis.samples(), model->coordinateCount());
-    for (int i = 0; i < basis.samples(); ++i) forces.row(i) = model->externalForce(driveAngle(i)).transpose();
+    for (int i = 0; i < basis.samples(); ++i) forces.row(i) = model->externalForce(samplePhases(i)).transpose();
     steadyForce = forces.colwise().mean();
     loadCoefficients = basis.analysis() * forces(Eigen::all, model->dofs.freeCoordinates);
   }
@@ -223,7 +231,14 @@ const std::vector<int>& HarmonicBalanceProblem::coordinateHarmonics() const { re
 Eigen::Index HarmonicBalanceProblem::unknownCount() const { return structure_->jacobian.size(); }
 int HarmonicBalanceProblem::drivePeriods() const { return structure_->drivePeriods; }
 
+math::Phases HarmonicBalanceProblem::phasesAt(double tau) const {
+  const double first = drivePeriods() * tau;
+  return {first, basis().ratio() * first};
+}
+math::Phases HarmonicBalanceProblem::samplePhases(int sample) const { return structure_->samplePhases(sample); }
+
 HarmonicBalanceProblem HarmonicBalanceProblem::withDrivePeriods(int drivePeriods) const {
+  if (basis().hasTwoFrequencies()) throw std::invalid_argument("motions with two frequencies have no period");
   const auto scaled = [&](int count) { return count * drivePeriods / structure_->drivePeriods; };
   std::vector<int> harmonics;
   for (const int count : structure_->coordinateHarmonics) harmonics.push_back(scaled(count));
@@ -360,25 +375,24 @@ void HarmonicBalanceProblem::linearize(const Vector& z, double driveFrequency, V
 
 Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
                                                    const mechanics::DesignParameter& parameter) const {
-  if (mechanics::isDriveFrequency(parameter)) {
-    Vector h, byFrequency;
-    linearize(z, driveFrequency, h, nullptr, &byFrequency);
-    return withoutLeftOut(std::move(byFrequency));
-  }
+  return parameterDerivative(z, driveFrequency, *parameter.derivative(model()));
+}
+
+Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double driveFrequency,
+                                                   const mechanics::ModelDerivative& change) const {
   const Structure& s = *structure_;
   const double omega = driveFrequency / s.drivePeriods;
   const Model& m = *s.model;
-  const std::unique_ptr<mechanics::ModelDerivative> change = parameter.derivative(m);
   const int samples = s.basis.samples();
   samplePositions(z, driveFraction_, workspace_->positions);
   const Matrix positions = workspace_->positions.topRows(samples);
   Matrix loads(samples, m.coordinateCount()), moved(samples, m.coordinateCount());
   for (int i = 0; i < samples; ++i) {
-    loads.row(i) = change->externalForce(s.driveAngle(i)).transpose();
-    moved.row(i) = change->prescribed(s.driveAngle(i)).transpose();
+    loads.row(i) = change.externalForce(s.samplePhases(i)).transpose();
+    moved.row(i) = change.prescribed(s.samplePhases(i)).transpose();
   }
-  Matrix gradients = change->gradient(positions);
-  Matrix inertial = inertialCoefficients(z, freeColumns(m, change->mass()));
+  Matrix gradients = change.gradient(positions);
+  Matrix inertial = inertialCoefficients(z, freeColumns(m, change.mass()));
   if (!moved.isZero(0)) {
     gradients += stiffnessTimes(m, positions, moved);
     inertial += s.basis.analysis() * moved * s.massToFree;
@@ -388,12 +402,17 @@ Vector HarmonicBalanceProblem::parameterDerivative(const Vector& z, double drive
                       m.massDamping * omega * s.basis.derivative(inertial) + elastic +
                       m.stiffnessDamping * omega * s.basis.derivative(elastic) -
                       scaledLoads(s.basis.analysis() * loads(Eigen::all, m.dofs.freeCoordinates), driveFraction_);
-  if (const double rate = change->massDamping(); rate != 0)
+  if (const double rate = change.massDamping(); rate != 0)
     derivative += rate * omega * s.basis.derivative(inertialCoefficients(z, s.massToFree));
-  if (const double rate = change->stiffnessDamping(); rate != 0) {
+  if (const double rate = change.stiffnessDamping(); rate != 0) {
     evaluate(z, false);
     const Matrix forces = workspace_->gradient.topRows(samples)(Eigen::all, m.dofs.freeCoordinates);
     derivative += rate * omega * s.basis.derivative(s.basis.analysis() * forces);
+  }
+  if (const double rate = change.driveFrequency(); rate != 0) {
+    Vector h, byFrequency;
+    linearize(z, driveFrequency, h, nullptr, &byFrequency);
+    derivative.reshaped() += rate * byFrequency;
   }
   return withoutLeftOut(derivative.reshaped());
 }
@@ -432,9 +451,9 @@ Vector HarmonicBalanceProblem::configurationAt(const Vector& z, double tau) cons
   const Structure& s = *structure_;
   const Eigen::Map<const Matrix> coefficients(z.data(), s.basis.size(), s.model->dofs.freeCount());
   const Vector free = coefficients.transpose() * s.basis.valuesAt(tau);
-  Vector positions = s.model->configuration(free, s.drivePeriods * tau);
+  Vector positions = s.model->configuration(free, phasesAt(tau));
   for (std::size_t drive = 0; driveFraction_ != 1 && drive < s.model->drives.size(); ++drive)
-    positions(s.model->drives[drive]->coordinates()) = s.drivenPlace(drive, s.drivePeriods * tau, driveFraction_);
+    positions(s.model->drives[drive]->coordinates()) = s.drivenPlace(drive, phasesAt(tau), driveFraction_);
   return positions;
 }
 

@@ -47,6 +47,10 @@ struct StressSource {
 /// same: in the formula, ω/ν stands for ω. Mass and damping that couple
 /// free to prescribed coordinates are included.
 ///
+/// Of two driving frequencies without a common period, z holds the coefficients of their combinations and N samples of
+/// the torus of their phases are taken (HarmonicBasis::ofTwoFrequencies); ω is the first frequency and ω d multiplies
+/// by each combination's. τ from 0 to 2π takes `drivePeriods` periods of the first one, after which nothing repeats.
+///
 /// Coordinates may have fewer harmonics than the basis (`coordinateHarmonics`): the coefficients of those left out stay
 /// zero, and so do their equations. ∂h/∂z is then of the `unknowns` alone, which `restricted` takes out of a vector and
 /// `expanded` puts back.
@@ -56,7 +60,8 @@ struct StressSource {
 /// own.
 class HarmonicBalanceProblem {
  public:
-  /// `coordinateHarmonics`: 1 to H for each free coordinate; empty: H for all.
+  /// `coordinateHarmonics`: 1 to H for each free coordinate; empty: H for all. A basis of two frequencies says itself
+  /// how many periods τ takes. Throws base::InputError if the model has a second frequency and the basis has not.
   HarmonicBalanceProblem(std::shared_ptr<const Model> model, math::HarmonicBasis basis, int drivePeriods = 1,
                          std::vector<int> coordinateHarmonics = {});
   HarmonicBalanceProblem(const HarmonicBalanceProblem& other);
@@ -68,8 +73,11 @@ class HarmonicBalanceProblem {
   std::shared_ptr<const Model> sharedModel() const;
   const math::HarmonicBasis& basis() const;
   const mechanics::ElasticAssembler& assembler() const;
-  /// ν: periods of the drive in one period of z.
+  /// ν: periods of the drive, or of its first frequency, that τ from 0 to 2π takes.
   int drivePeriods() const;
+  /// Phases of the drive at τ, and at a sample.
+  math::Phases phasesAt(double tau) const;
+  math::Phases samplePhases(int sample) const;
   /// The same problem for motions that repeat after `drivePeriods` periods of the drive, with harmonics and samples in
   /// proportion; `stretched` gives this problem's motions as its.
   HarmonicBalanceProblem withDrivePeriods(int drivePeriods) const;
@@ -120,6 +128,7 @@ class HarmonicBalanceProblem {
                  const StressSource* stresses = nullptr) const;
   /// ∂h/∂p, size(): with all of the drive, and with the coordinates that are not free moving as p moves them.
   Vector parameterDerivative(const Vector& z, double omega, const mechanics::DesignParameter& parameter) const;
+  Vector parameterDerivative(const Vector& z, double omega, const mechanics::ModelDerivative& change) const;
 
   /// Positions of every coordinate at the N samples: N x coordinates [m].
   Matrix trajectories(const Vector& z) const;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 
 #include "core/math/parallel.hpp"
 
@@ -13,13 +13,13 @@ namespace {
 /// Columns of coordinates that one task assembles.
 constexpr int columnsPerTask = 16;
 
-Matrix coefficientTransform(int harmonics, int samples) {
-  Matrix transform(4 * harmonics + 1, samples);
-  const double step = 2 * std::numbers::pi / samples;
+Matrix coefficientTransform(const math::HarmonicBasis& basis, const std::vector<std::array<int, 2>>& combinations) {
+  const int samples = basis.samples(), count = static_cast<int>(combinations.size());
+  Matrix transform(2 * count + 1, samples);
   for (int i = 0; i < samples; ++i) {
     transform(0, i) = 1.0 / samples;
-    for (int m = 1; m <= 2 * harmonics; ++m) {
-      const double phase = step * static_cast<double>(static_cast<long long>(m) * i % samples);
+    for (int m = 1; m <= count; ++m) {
+      const double phase = basis.samplePhase(combinations[static_cast<std::size_t>(m) - 1], i);
       transform(2 * m - 1, i) = std::sin(phase) / samples;
       transform(2 * m, i) = std::cos(phase) / samples;
     }
@@ -62,7 +62,12 @@ std::vector<Pair> collectPairs(const mechanics::ElasticAssembler& assembler, con
 
 HarmonicJacobian::HarmonicJacobian(const math::HarmonicBasis& basis, const mechanics::ElasticAssembler& assembler,
                                    const SparseMatrix& mass, const std::vector<int>& coordinateHarmonics)
-    : harmonics_(basis.harmonics()), transform_(coefficientTransform(basis.harmonics(), basis.samples())) {
+    : harmonics_(basis.harmonics()) {
+  const std::vector<std::array<int, 2>> combinations = basis.combinations(2 * basis.order());
+  extent_ = static_cast<int>(combinations.size());
+  transform_ = coefficientTransform(basis, combinations);
+  for (int k = 0; k <= harmonics_; ++k) rates_.push_back(k > 0 ? basis.rate(k) : 0);
+  if (basis.hasTwoFrequencies()) combineHarmonics(combinations);
   const int count = static_cast<int>(mass.cols());
   const std::vector<Pair> pairs = collectPairs(assembler, mass);
   const auto width = [&](int coordinate) { return 2 * coordinateHarmonics[coordinate] + 1; };
@@ -117,6 +122,20 @@ HarmonicJacobian::HarmonicJacobian(const math::HarmonicBasis& basis, const mecha
   }
 }
 
+void HarmonicJacobian::combineHarmonics(const std::vector<std::array<int, 2>>& combinations) {
+  std::map<std::array<int, 2>, int> places{{{0, 0}, 0}};
+  for (int m = 1; m <= extent_; ++m) {
+    const auto [first, second] = combinations[static_cast<std::size_t>(m) - 1];
+    places[{first, second}] = m;
+    places[{-first, -second}] = -m;
+  }
+  for (int k = 0; k < harmonics_; ++k)
+    for (int j = 0; j < harmonics_; ++j) {
+      const auto &a = combinations[static_cast<std::size_t>(j)], &b = combinations[static_cast<std::size_t>(k)];
+      mixed_.push_back({places.at({a[0] - b[0], a[1] - b[1]}), places.at({a[0] + b[0], a[1] + b[1]})});
+    }
+}
+
 void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double massDamping, double stiffnessDamping,
                                 Matrix& coefficients, SparseMatrix& jacobian) const {
   if (jacobian.rows() != size() || jacobian.cols() != size() || jacobian.nonZeros() != entryCount() ||
@@ -136,12 +155,9 @@ void HarmonicJacobian::assemble(const Matrix& stiffness, double omega, double ma
     const int entries = columnEntries_[end] - firstEntry;
     coefficients.middleCols(firstEntry, entries).noalias() =
         transform_ * stiffness.block(0, firstEntry, transform_.cols(), entries);
-    std::vector<double> scratch(4 * (4 * harmonics_ + 1) + 2 * harmonics_ + 2);
-    double* weight = scratch.data() + 4 * (4 * harmonics_ + 1);
-    for (int i = 2; i < 2 * harmonics_ + 2; ++i) {
-      const int harmonic = i / 2;
-      weight[i] = stiffnessDamping * omega * harmonic;
-    }
+    std::vector<double> scratch(4 * (2 * extent_ + 1) + 2 * harmonics_ + 2);
+    double* weight = scratch.data() + 4 * (2 * extent_ + 1);
+    for (int i = 2; i < 2 * harmonics_ + 2; ++i) weight[i] = stiffnessDamping * omega * rates_[i / 2];
     for (int b = columnBlocks_[begin]; b < columnBlocks_[end]; ++b)
       writeBlocks(blocks_[b], coefficients, omega, massDamping, scratch.data(), values);
   });
@@ -151,17 +167,18 @@ void HarmonicJacobian::writeBlocks(const Block& block, const Matrix& coefficient
                                    double* scratch, double* values) const {
   // The rows of a block are the pairs (sin jτ, cos jτ), j = 1 .. H, below the constant. With U[m] = (P[m], -Q[m]) and
   // V[m] = (Q[m], P[m]) side by side, the pairs of the column sin kτ are U[j-k] - U[j+k] and d times them V[j-k] -
-  // V[j+k]; those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m.
-  const int h = harmonics_;
-  double* u = scratch + 4 * h;                       // u[2m], u[2m+1] = U[m] for |m| <= 2H
-  double* v = u + 2 * (4 * h + 1);                   // likewise V
-  const double* weight = scratch + 4 * (4 * h + 1);  // weight[2j], weight[2j+1] = D_β ω j
+  // V[j+k]; those of cos kτ are V[j-k] + V[j+k] and -(U[j-k] + U[j+k]). P is even and Q is odd in m. Of two
+  // frequencies, j-k and j+k are looked up.
+  const int extent = extent_;
+  double* u = scratch + 2 * extent;                       // u[2m], u[2m+1] = U[m] for |m| <= 2H
+  double* v = u + 2 * (2 * extent + 1);                   // likewise V
+  const double* weight = scratch + 4 * (2 * extent + 1);  // weight[2j], weight[2j+1] = D_β ω j
 
   if (block.entry >= 0) {
     const double* k = coefficients.data() + coefficients.rows() * block.entry;
     u[0] = v[1] = k[0];
     u[1] = v[0] = 0;
-    for (int m = 1; m <= 2 * h; ++m) {
+    for (int m = 1; m <= extent; ++m) {
       const double q = k[2 * m - 1];
       const double p = k[2 * m];
       u[2 * m] = u[-2 * m] = p;
@@ -172,28 +189,38 @@ void HarmonicJacobian::writeBlocks(const Block& block, const Matrix& coefficient
       v[2 * m + 1] = v[-2 * m + 1] = p;
     }
   } else {
-    std::fill_n(scratch, 4 * (4 * h + 1), 0.0);
+    std::fill_n(scratch, 4 * (2 * extent + 1), 0.0);
   }
 
   const auto write = [&](double* target, long stride, int rows, int columns) {
     target[0] = u[0];
     for (int i = 2; i <= rows; ++i) target[i - 1] = 2 * (v[i] - weight[i] * u[i]);
     for (int k = 1; 2 * k < columns; ++k) {
-      const double* um = u - 2 * k;
-      const double* up = u + 2 * k;
-      const double* vm = v - 2 * k;
-      const double* vp = v + 2 * k;
       double* sine = target + (2 * k - 1) * stride;
       double* cosine = target + 2 * k * stride;
       sine[0] = v[2 * k];
       cosine[0] = v[2 * k + 1];
-      for (int i = 2; i <= rows; ++i) {
-        sine[i - 1] = (um[i] - up[i]) + weight[i] * (vm[i] - vp[i]);
-        cosine[i - 1] = (vm[i] + vp[i]) - weight[i] * (um[i] + up[i]);
+      if (mixed_.empty()) {
+        const double* um = u - 2 * k;
+        const double* up = u + 2 * k;
+        const double* vm = v - 2 * k;
+        const double* vp = v + 2 * k;
+        for (int i = 2; i <= rows; ++i) {
+          sine[i - 1] = (um[i] - up[i]) + weight[i] * (vm[i] - vp[i]);
+          cosine[i - 1] = (vm[i] + vp[i]) - weight[i] * (um[i] + up[i]);
+        }
+      } else {
+        const Mixed* mixed = mixed_.data() + static_cast<std::ptrdiff_t>(k - 1) * harmonics_;
+        for (int i = 2; i <= rows; ++i) {
+          const int minus = 2 * mixed[i / 2 - 1].difference + i % 2;
+          const int plus = 2 * mixed[i / 2 - 1].sum + i % 2;
+          sine[i - 1] = (u[minus] - u[plus]) + weight[i] * (v[minus] - v[plus]);
+          cosine[i - 1] = (v[minus] + v[plus]) - weight[i] * (u[minus] + u[plus]);
+        }
       }
       if (2 * k >= rows) continue;
-      const double inertia = -(k * omega) * (k * omega) * block.mass;
-      const double friction = k * omega * massDamping * block.mass;
+      const double inertia = -(rates_[k] * omega) * (rates_[k] * omega) * block.mass;
+      const double friction = rates_[k] * omega * massDamping * block.mass;
       sine[2 * k - 1] += inertia;
       sine[2 * k] += friction;
       cosine[2 * k - 1] -= friction;

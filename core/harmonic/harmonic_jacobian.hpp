@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/math/harmonic_basis.hpp"
@@ -19,6 +20,7 @@ using mechanics::Vector;
 /// with P[m] and Q[m] the means of k(τ_i) cos(m τ_i) and k(τ_i) sin(m τ_i) over the samples. This is an identity for
 /// any number of samples, so the blocks cost one matrix product for all coefficients and a few additions an entry.
 /// Damping multiplies a block by (1 + D_β ω d) from the left; inertia and mass damping add to its diagonal pairs.
+/// Of two frequencies, j and k are pairs of multiples, and orders up to 2H are the combinations of order 2H.
 /// Coordinates may have fewer harmonics than the basis: the rows and columns of those left out do not exist.
 ///
 /// Constant once built; any thread may use it.
@@ -51,11 +53,21 @@ class HarmonicJacobian {
     bool diagonal;
   };
 
+  /// Where j-k and j+k are among the coefficients: ±m for the combination m or its negative, 0 for the constant.
+  struct Mixed {
+    int difference;
+    int sum;
+  };
+
+  void combineHarmonics(const std::vector<std::array<int, 2>>& combinations);
   void writeBlocks(const Block& block, const Matrix& coefficients, double omega, double massDamping, double* scratch,
                    double* values) const;
 
   int harmonics_;
-  Matrix transform_;  ///< (4H+1) x N: samples to P[0], Q[1], P[1], ..., Q[2H], P[2H]
+  int extent_;                 ///< largest m: 2H of one frequency
+  std::vector<double> rates_;  ///< of k = 0 .. harmonics_: what d/dτ multiplies by
+  std::vector<Mixed> mixed_;   ///< of j and k, j running faster; empty of one frequency
+  Matrix transform_;           ///< (2 extent + 1) x N: samples to P[0], Q[1], P[1], ..., Q[2H], P[2H]
   std::vector<Block> blocks_;
   std::vector<int> columnBlocks_;   ///< first block of each column of coordinates, and the end
   std::vector<int> columnEntries_;  ///< first Hessian entry of each column of coordinates, and the end

@@ -1,7 +1,6 @@
 #include "core/harmonic/mode_sensitivity.hpp"
 
 #include <array>
-#include <numbers>
 
 #include "core/harmonic/steady_drive.hpp"
 
@@ -53,34 +52,32 @@ Matrix elasticForces(const mechanics::ElasticAssembler& assembler, const Matrix&
 /// How the steady part of loads and drives (HarmonicBalanceProblem::setDriveFraction) depends on parameters.
 class SteadyDerivative {
  public:
-  explicit SteadyDerivative(const HarmonicBalanceProblem& problem)
-      : model_(problem.model()), periods_(problem.drivePeriods()), samples_(problem.basis().samples()) {
+  explicit SteadyDerivative(const HarmonicBalanceProblem& problem) : model_(problem.model()) {
+    for (int i = 0; i < problem.basis().samples(); ++i) instants_.push_back(problem.samplePhases(i));
     for (const auto& drive : model_.drives)
-      steadyAngles_.push_back(
-          angle(steadySample(*drive, model_.restPositions(drive->coordinates()), samples_, periods_)));
+      steadyInstants_.push_back(instants_[static_cast<std::size_t>(
+          steadySample(*drive, model_.restPositions(drive->coordinates()), instants_))]);
   }
 
   Vector force(const mechanics::ModelDerivative& change) const {
     Vector mean = Vector::Zero(model_.coordinateCount());
-    for (int i = 0; i < samples_; ++i) mean += change.externalForce(angle(i)) / samples_;
+    for (const math::Phases& at : instants_) mean += change.externalForce(at) / static_cast<double>(instants_.size());
     return mean;
   }
   /// Of the coordinates that are not free.
   Vector place(const mechanics::ModelDerivative& change) const {
     Vector moved = change.prescribed(0);
     for (std::size_t d = 0; d < model_.drives.size(); ++d) {
-      const Vector atAngle = change.prescribed(steadyAngles_[d]);
+      const Vector atAngle = change.prescribed(steadyInstants_[d]);
       for (const int coordinate : model_.drives[d]->coordinates()) moved[coordinate] = atAngle[coordinate];
     }
     return moved;
   }
 
  private:
-  double angle(int sample) const { return 2 * std::numbers::pi * periods_ * sample / samples_; }
-
   const Model& model_;
-  int periods_, samples_;
-  std::vector<double> steadyAngles_;  ///< of each drive
+  std::vector<math::Phases> instants_;
+  std::vector<math::Phases> steadyInstants_;  ///< of each drive
 };
 
 }  // namespace

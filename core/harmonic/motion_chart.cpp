@@ -16,27 +16,30 @@ using Style = MotionChart::Style;
 constexpr int instants = 256;
 constexpr base::Dimension velocityDimension{0, 1, -1, 0};
 
-/// Positions and velocities over τ of one node at `instants` + 1 instants of a period, its end included.
+/// Positions and velocities of one node at `instants` + 1 instants of a period, or that many of each period of the
+/// first of two frequencies.
 struct NodeMotion {
   Vector time;       ///< [s]
-  Matrix position;   ///< instants + 1 x dimension [m]
+  Matrix position;   ///< as many x dimension [m]
   Matrix velocity;   ///< likewise [m/s]
   Matrix harmonics;  ///< coefficients, (2H+1) x dimension [m]
 };
 
 NodeMotion motionOf(const HarmonicBalanceProblem& problem, const Vector& z, double omega, int node) {
   const math::HarmonicBasis& basis = problem.basis();
+  const int count = instants * basis.periods();
+  const double rate = omega / problem.drivePeriods();
   NodeMotion motion;
   motion.harmonics = basis.analysis() * problem.nodeTrajectory(z, node);
-  Matrix synthesis(instants + 1, basis.size());
-  motion.time.resize(instants + 1);
-  for (int i = 0; i <= instants; ++i) {
-    const double tau = 2 * std::numbers::pi * i / instants;
+  Matrix synthesis(count + 1, basis.size());
+  motion.time.resize(count + 1);
+  for (int i = 0; i <= count; ++i) {
+    const double tau = 2 * std::numbers::pi * i / count;
     synthesis.row(i) = basis.valuesAt(tau).transpose();
-    motion.time[i] = tau / omega;
+    motion.time[i] = tau / rate;
   }
   motion.position = synthesis * motion.harmonics;
-  motion.velocity = omega * synthesis * basis.derivative(motion.harmonics);
+  motion.velocity = rate * synthesis * basis.derivative(motion.harmonics);
   return motion;
 }
 
@@ -60,7 +63,7 @@ MotionChart harmonicContent(const HarmonicBalanceProblem& problem, const Vector&
   for (Eigen::Index axis = 0; axis < motion.harmonics.cols(); ++axis) {
     ChartSeries series{axisName(axis), Vector(count), Vector(count)};
     for (int k = 1; k <= count; ++k) {
-      series.x[k - 1] = k;
+      series.x[k - 1] = std::abs(problem.basis().rate(k)) / problem.basis().periods();
       series.y[k - 1] = std::hypot(motion.harmonics(2 * k - 1, axis), motion.harmonics(2 * k, axis));
     }
     if (series.y.maxCoeff() > 0) chart.series.push_back(std::move(series));
@@ -83,7 +86,7 @@ MotionChart velocity(const HarmonicBalanceProblem& problem, const Vector& z, dou
 MotionChart phasePlane(const HarmonicBalanceProblem& problem, const Vector& z, double omega, int node) {
   const NodeMotion motion = motionOf(problem, z, omega, node);
   MotionChart chart;
-  chart.style = Style::closedLine;
+  chart.style = problem.basis().hasTwoFrequencies() ? Style::line : Style::closedLine;
   chart.x = {"Displacement from the mean", dimensions::length};
   chart.y = {"Velocity", velocityDimension};
   for (Eigen::Index axis = 0; axis < motion.position.cols(); ++axis)
@@ -92,15 +95,31 @@ MotionChart phasePlane(const HarmonicBalanceProblem& problem, const Vector& z, d
   return chart;
 }
 
-/// value(configuration) at the samples of a period, its end included.
+template <class Value>
+ChartSeries sampledInTime(const HarmonicBalanceProblem& problem, const Vector& z, double omega, std::string name,
+                          const Value& value) {
+  constexpr int instantsOfPeriod = 32;
+  const int count = instantsOfPeriod * problem.drivePeriods();
+  ChartSeries series{std::move(name), Vector(count + 1), Vector(count + 1)};
+  for (int i = 0; i <= count; ++i) {
+    const double tau = 2 * std::numbers::pi * i / count;
+    series.x[i] = tau * problem.drivePeriods() / omega;
+    series.y[i] = value(problem.configurationAt(z, tau));
+  }
+  return series;
+}
+
+/// value(configuration) at the samples of a period, its end included; of two frequencies at instants of the span.
 template <class Value>
 ChartSeries sampled(const HarmonicBalanceProblem& problem, const Vector& z, double omega, std::string name,
                     const Value& value) {
+  if (problem.basis().hasTwoFrequencies()) return sampledInTime(problem, z, omega, std::move(name), value);
   const Matrix positions = problem.trajectories(z);
   const Eigen::Index samples = positions.rows();
   ChartSeries series{std::move(name), Vector(samples + 1), Vector(samples + 1)};
   for (Eigen::Index i = 0; i <= samples; ++i) {
-    series.x[i] = 2 * std::numbers::pi * static_cast<double>(i) / (static_cast<double>(samples) * omega);
+    series.x[i] = 2 * std::numbers::pi * problem.drivePeriods() * static_cast<double>(i) /
+                  (static_cast<double>(samples) * omega);
     series.y[i] = i < samples ? value(Vector(positions.row(i).transpose())) : series.y[0];
   }
   return series;

@@ -1,5 +1,7 @@
 #include "core/harmonic/parameter_jacobian.hpp"
 
+#include "core/mechanics/family_parameter.hpp"
+#include "core/mechanics/joint_parameter.hpp"
 #include "core/mechanics/stiffness_factor.hpp"
 
 namespace pliant::harmonic {
@@ -8,47 +10,59 @@ using mechanics::ElasticDerivative;
 
 ParameterJacobian::ParameterJacobian(const HarmonicBalanceProblem& problem, const Vector& z, double omega,
                                      std::vector<int> parameters)
-    : problem_(problem),
-      omega_(omega / problem.drivePeriods()),
-      parameters_(std::move(parameters)),
-      positions_(problem.trajectories(z)) {
-  int columns = 0;
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    columnOf_.push_back(dynamic_cast<const ElasticDerivative*>(derivativeOf(i).get()) ? -1 : columns++);
-  columns_.resize(problem.size(), columns);
-  for (std::size_t i = 0; i < parameters_.size(); ++i)
-    if (columnOf_[i] >= 0)
-      columns_.col(columnOf_[i]) =
-          problem.parameterDerivative(z, omega, *problem.model().parameters[static_cast<std::size_t>(parameters_[i])]);
+    : problem_(problem), z_(z), omega_(omega), parameters_(std::move(parameters)), positions_(problem.trajectories(z)) {
+  columns_.resize(parameters_.size());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const mechanics::DesignParameter& parameter = parameterAt(i);
+    const bool joint = dynamic_cast<const mechanics::JointParameter*>(&parameter) != nullptr;
+    kinds_.push_back(mechanics::factoredElement(parameter) ? Kind::elastic : joint ? Kind::joint : Kind::single);
+    if (!joint) columns_[i] = problem_.parameterDerivative(z_, omega_, parameter);
+  }
 }
 
-std::unique_ptr<mechanics::ModelDerivative> ParameterJacobian::derivativeOf(std::size_t i) const {
-  const Model& model = problem_.model();
-  return model.parameters.at(static_cast<std::size_t>(parameters_[i]))->derivative(model);
+const mechanics::DesignParameter& ParameterJacobian::parameterAt(std::size_t i) const {
+  return *problem_.model().parameters.at(static_cast<std::size_t>(parameters_[i]));
+}
+
+const Vector& ParameterJacobian::column(std::size_t i) const {
+  if (columns_[i].size() == 0) columns_[i] = problem_.parameterDerivative(z_, omega_, parameterAt(i));
+  return columns_[i];
 }
 
 Vector ParameterJacobian::times(const Vector& change) const {
   const Model& model = problem_.model();
-  const math::HarmonicBasis& basis = problem_.basis();
   Vector product = Vector::Zero(problem_.size());
-  Matrix forces = Matrix::Zero(positions_.rows(), positions_.cols());
+  Matrix forces;
+  std::vector<std::shared_ptr<const mechanics::DesignParameter>> together;
+  std::vector<double> shares;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const double share = change[static_cast<Eigen::Index>(i)];
     if (share == 0) continue;
-    if (columnOf_[i] >= 0) {
-      product += share * columns_.col(columnOf_[i]);
+    if (columns_[i].size() > 0) {
+      product += share * columns_[i];
       continue;
     }
-    const auto derivative = derivativeOf(i);
+    if (kinds_[i] == Kind::joint) {
+      together.push_back(model.parameters[static_cast<std::size_t>(parameters_[i])]);
+      shares.push_back(share);
+      continue;
+    }
+    if (forces.size() == 0) forces = Matrix::Zero(positions_.rows(), positions_.cols());
+    const auto derivative = parameterAt(i).derivative(model);
     const auto& elastic = static_cast<const ElasticDerivative&>(*derivative);
     const Matrix gradient = elastic.coordinateGradient(positions_);
     for (std::size_t c = 0; c < elastic.coordinates().size(); ++c)
       forces.col(elastic.coordinates()[c]) += share * gradient.col(static_cast<Eigen::Index>(c));
   }
-  if (columns_.cols() == static_cast<Eigen::Index>(parameters_.size())) return product;
+  if (!together.empty()) {
+    const Eigen::Map<const Vector> direction(shares.data(), static_cast<Eigen::Index>(shares.size()));
+    product += problem_.parameterDerivative(z_, omega_, *mechanics::derivativeAlong(model, together, direction));
+  }
+  if (forces.size() == 0) return product;
+  const math::HarmonicBasis& basis = problem_.basis();
   const Matrix elastic = basis.analysis() * forces(Eigen::all, model.dofs.freeCoordinates);
-  return product +
-         problem_.withoutLeftOut((elastic + model.stiffnessDamping * omega_ * basis.derivative(elastic)).reshaped());
+  return product + problem_.withoutLeftOut(
+                       (elastic + model.stiffnessDamping * ownOmega() * basis.derivative(elastic)).reshaped());
 }
 
 Vector ParameterJacobian::transposedTimes(const Vector& adjoint) const {
@@ -56,17 +70,17 @@ Vector ParameterJacobian::transposedTimes(const Vector& adjoint) const {
   const Model& model = problem_.model();
   const math::HarmonicBasis& basis = problem_.basis();
   const Eigen::Map<const Matrix> lambda(adjoint.data(), basis.size(), model.dofs.freeCount());
-  const Matrix virtualMotion = lambda - model.stiffnessDamping * omega_ * basis.derivative(lambda);
+  const Matrix virtualMotion = lambda - model.stiffnessDamping * ownOmega() * basis.derivative(lambda);
   Matrix displacements = Matrix::Zero(positions_.rows(), positions_.cols());
   displacements(Eigen::all, model.dofs.freeCoordinates) = basis.analysis().transpose() * virtualMotion;
   Vector products(static_cast<Eigen::Index>(parameters_.size()));
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     double& work = products[static_cast<Eigen::Index>(i)];
-    if (columnOf_[i] >= 0) {
-      work = adjoint.dot(columns_.col(columnOf_[i]));
+    if (kinds_[i] != Kind::elastic) {
+      work = adjoint.dot(column(i));
       continue;
     }
-    const auto derivative = derivativeOf(i);
+    const auto derivative = parameterAt(i).derivative(model);
     const auto& elastic = static_cast<const ElasticDerivative&>(*derivative);
     const Matrix gradient = elastic.coordinateGradient(positions_);
     work = 0;

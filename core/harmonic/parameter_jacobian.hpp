@@ -7,7 +7,9 @@
 namespace pliant::harmonic {
 
 /// ∂h/∂p at one motion, a column a parameter. Columns of parameters that change the elastic forces of a few coordinates
-/// alone (mechanics::ElasticDerivative) are not formed, so that there may be as many as there are elements.
+/// alone (mechanics::ElasticDerivative) are not formed, so that there may be as many as there are elements; those of
+/// joint parameters only for `transposedTimes`, since one direction costs as little as one of them. One thread at a
+/// time.
 class ParameterJacobian {
  public:
   /// `parameters` are indices in `Model::parameters`. Keeps a reference to the problem.
@@ -19,14 +21,20 @@ class ParameterJacobian {
   Vector transposedTimes(const Vector& adjoint) const;
 
  private:
-  std::unique_ptr<mechanics::ModelDerivative> derivativeOf(std::size_t i) const;
+  enum class Kind { single, joint, elastic };
+
+  const mechanics::DesignParameter& parameterAt(std::size_t i) const;
+  const Vector& column(std::size_t i) const;
+  /// Of z's own period.
+  double ownOmega() const { return omega_ / problem_.drivePeriods(); }
 
   const HarmonicBalanceProblem& problem_;
-  double omega_;  ///< of z's own period
+  Vector z_;
+  double omega_;  ///< of the drive
   std::vector<int> parameters_;
-  std::vector<int> columnOf_;  ///< in columns_, or -1
-  Matrix columns_;
-  Matrix positions_;  ///< N x coordinates
+  std::vector<Kind> kinds_;
+  mutable std::vector<Vector> columns_;  ///< per parameter; empty: not formed
+  Matrix positions_;                     ///< N x coordinates
 };
 
 }  // namespace pliant::harmonic

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/harmonic/torus_path.hpp"
+
 namespace pliant::harmonic {
 
 namespace {
@@ -134,6 +136,7 @@ Matrix nodeCoefficients(const HarmonicBalanceProblem& problem, const Vector& z, 
 }
 
 double pathLength(const math::HarmonicBasis& basis, const Matrix& coefficients, Matrix* gradient) {
+  if (basis.hasTwoFrequencies()) return meanPathLength(basis, coefficients, gradient);
   const NodePath path(basis, coefficients);
   double length = 0;
   Matrix byVelocity = Matrix::Zero(coefficients.rows(), coefficients.cols());
@@ -149,6 +152,7 @@ double pathLength(const math::HarmonicBasis& basis, const Matrix& coefficients, 
 }
 
 double maximumDisplacement(const math::HarmonicBasis& basis, const Matrix& coefficients) {
+  if (basis.hasTwoFrequencies()) return largestDisplacement(basis, coefficients);
   const NodePath path(basis, coefficients);
   double largest = 0;
   for (const double tau : localMinima(

@@ -129,13 +129,17 @@ ParameterRange PredictionError::trustedRange(int parameter, double share) const 
   const Model& model = problem_.model();
   const auto& changed = *model.parameters.at(static_cast<std::size_t>(parameter));
   const double value = changed.value(model), lower = changed.minimum(model), upper = changed.maximum(model);
-  const MotionDerivatives path = derivatives(Vector::Unit(derivative_.cols(), parameter), 3);
+  const double reach = trustedReach(Vector::Unit(derivative_.cols(), parameter), share);
+  return {std::max(lower, value - reach), std::min(upper, value + reach)};
+}
+
+double PredictionError::trustedReach(const Vector& direction, double share) const {
+  const MotionDerivatives path = derivatives(direction, 3);
   const double square = path.second.norm() / 2, allowed = share * swing_;
-  if (square == 0) return {lower, upper};
+  if (square == 0) return std::numeric_limits<double>::infinity();
   // square Δ² / (1 - ratio Δ) = allowed
   const double half = 0.5 * allowed * path.third.norm() / (3 * path.second.norm());
-  const double reach = allowed / (half + std::sqrt(half * half + square * allowed));
-  return {std::max(lower, value - reach), std::min(upper, value + reach)};
+  return allowed / (half + std::sqrt(half * half + square * allowed));
 }
 
 }  // namespace pliant::harmonic

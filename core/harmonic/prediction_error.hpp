@@ -46,6 +46,9 @@ class PredictionError {
   /// shrank like its second and third. Cautious on the side where they alternate; near a fold, where they shrink
   /// slowly, a motion may be somewhat farther off.
   ParameterRange trustedRange(int parameter, double share) const;
+  /// The same of many at once: how often `direction` (size np, not 0) may be gone, the parameters' bounds aside.
+  /// Infinite if predictions along it are exact to second order.
+  double trustedReach(const Vector& direction, double share) const;
 
  private:
   double step(const Vector& direction, const Vector& tangent) const;

@@ -1,14 +1,13 @@
 #include "core/harmonic/steady_drive.hpp"
 
-#include <numbers>
-
 namespace pliant::harmonic {
 
-int steadySample(const mechanics::PrescribedMotion& drive, const mechanics::Vector& rest, int samples, int periods) {
+int steadySample(const mechanics::PrescribedMotion& drive, const mechanics::Vector& rest,
+                 const std::vector<math::Phases>& instants) {
   constexpr double rounding = 1e-9;  // relative to the swing
-  mechanics::Matrix positions(samples, rest.size());
-  for (int i = 0; i < samples; ++i)
-    positions.row(i) = drive.values(rest, 2 * std::numbers::pi * periods * i / samples).transpose();
+  mechanics::Matrix positions(static_cast<Eigen::Index>(instants.size()), rest.size());
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    positions.row(i) = drive.values(rest, instants[static_cast<std::size_t>(i)]).transpose();
   const Eigen::RowVectorXd mean = positions.colwise().mean();
   const mechanics::Vector distances = (positions.rowwise() - mean).rowwise().norm();
   const double nearest = distances.minCoeff() + rounding * distances.maxCoeff();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/interlock/contact_motion.hpp"
+#include "core/mechanics/creep_law.hpp"
 
 namespace pliant::interlock {
 
@@ -14,27 +15,10 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using mechanics::CreepLaw;
 
 /// Contacts that push less than this, over the strongest, have no friction worth computing.
 constexpr double leastShare = 1e-7;
-
-/// f of FrictionStep with f'/u and f''.
-struct CreepLaw {
-  double value, slopeOverSlide, curvature;
-
-  CreepLaw(double slide, double creep) {
-    if (slide >= creep) {
-      value = slide - creep / 3;
-      slopeOverSlide = 1 / slide;
-      curvature = 0;
-    } else {
-      const double share = slide / creep;
-      value = slide * share * (1 - share / 3);
-      slopeOverSlide = (2 - share) / creep;
-      curvature = 2 * (1 - share) / creep;
-    }
-  }
-};
 
 /// From the left: R = ΔR R_before.
 Matrix3d turnBetween(const Matrix3d& before, const Matrix3d& now) { return now * before.transpose(); }

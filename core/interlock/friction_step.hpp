@@ -11,10 +11,8 @@ namespace pliant::interlock {
 /// step short, so that the way there counts.
 ///
 /// Friction is that of Coulomb by a lagged potential (Li et al. 2020, "Incremental potential contact", section 5.5):
-/// each contact, with its normal force N and its plane, adds μ N f(u), where u is how far the two
-/// places that touched have slid along that plane since,
-///   f = u²/ε - u³/(3ε²) below ε, u - ε/3 above,
-/// so that up to the length ε contacts creep instead of sticking. The drag adds ½ k (|Δx|² + (ρ θ)² + (L Δε)²), of the
+/// each contact, with its normal force N and its plane, adds μ N f(u) of mechanics::CreepLaw, where u is how far the
+/// two places that touched have slid along that plane since. The drag adds ½ k (|Δx|² + (ρ θ)² + (L Δε)²), of the
 /// translation and the angle of each element of reach ρ, 3 - tr ΔR for θ², and of the strain.
 class FrictionStep {
  public:

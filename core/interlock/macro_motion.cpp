@@ -20,6 +20,12 @@ constexpr int mostAttempts = 20;
 /// Where a step does not converge: the barriers that lead to its own, over it.
 constexpr std::array<double, 3> largerBarriers = {100, 10, 1};
 
+/// How fast contacts creep that hold: of the size of the sheet, in a second (as Li et al. 2020 choose it).
+constexpr double creepRate = 1e-3;
+/// Contacts are looked at anew in a step until friction changes by less than this, at most so often.
+constexpr double lagOfStep = 0.05;
+constexpr int mostLagsOfStep = 5;
+
 void checkMotion(const MacroMotionOptions& options, const MacroLoads& loads, const std::vector<MacroGrip>& grips,
                  Index nodes) {
   const auto mustBe = [](bool right, const char* what) {
@@ -69,6 +75,9 @@ MacroMotion::MacroMotion(std::shared_ptr<const MacroSimulation> simulation, Macr
   barrier_ = options_.barrier * weight * size / simulation_->areas_.sum();
   gripStiffness_ = weight / (stretchOfGrip * size);
   if (simulation_->limits_) minimizer_.setWeight(1, barrier_);
+  if (contact_ && simulation_->contact_.friction > 0)
+    rubbing_.emplace(minimizer_, contact_,
+                     mechanics::FrictionOptions{simulation_->contact_.friction, creepRate * size * options_.timeStep});
 }
 
 MacroMotion::Surroundings MacroMotion::surroundingsOfStep() const {
@@ -128,11 +137,16 @@ MacroState MacroMotion::step(base::ExecutionContext& context) {
   const Eigen::Matrix3Xd bodiesBefore = bodyPoints_;
   base::SolverReport report;
   std::vector<base::IterationRecord> records;
-  for (int attempt = 0; attempt < mostAttempts; ++attempt) {
+  SheetFriction friction;
+  if (rubbing_) rubbing_->begin(simulation_->withBodies(positions_, bodyPoints_));
+  for (int attempt = 0, lags = 0; attempt < mostAttempts; ++attempt) {
     const bool arrived = moveBodies();
     report = minimize(surroundings, context);
     records.insert(records.end(), report.iterations.begin(), report.iterations.end());
-    if (arrived || !report.converged()) break;
+    if (!report.converged()) break;
+    if (rubbing_) friction = rubbing_->judged(simulation_->withBodies(positions_, bodyPoints_));
+    if (arrived && (friction.lag <= lagOfStep || ++lags == mostLagsOfStep)) break;
+    if (rubbing_) rubbing_->renew(simulation_->withBodies(positions_, bodyPoints_));
   }
   report.iterations = std::move(records);
   if (!report.converged()) {
@@ -144,6 +158,8 @@ MacroState MacroMotion::step(base::ExecutionContext& context) {
     return state;
   }
   velocities_ = (positions_ - before) / options_.timeStep;
+  friction_ = friction;
+  dissipated_ += friction.dissipated;
   time_ += options_.timeStep;
   MacroState state = judged();
   state.report = std::move(report);
@@ -156,6 +172,7 @@ MacroState MacroMotion::judged() const {
   state.barrier = barrier_;
   simulation_->judge(state);
   state.work = force_.dot(positions_ - start_);
+  state.friction = friction_;
   simulation_->judgeContact(state, contact_.get(), bodyPoints_, -loads_.gravity.stableNormalized());
   return state;
 }
@@ -167,10 +184,9 @@ MacroEnergies MacroMotion::energies() const {
   energies.elastic = simulation_->elastic_->value(positions_);
   if (simulation_->limits_) energies.limits = barrier_ * simulation_->limits_->value(positions_);
   energies.potential = -force_.dot(positions_ - start_);
+  energies.dissipated = dissipated_;
   if (contact_) {
-    Eigen::Matrix3Xd all(3, positions_.size() / 3 + bodyPoints_.cols());
-    all << positions_.reshaped(3, positions_.size() / 3), bodyPoints_;
-    contact_->update(all);
+    contact_->update(simulation_->withBodies(positions_, bodyPoints_));
     energies.contact = contact_->value();
   }
   return energies;

@@ -27,19 +27,24 @@ struct MacroEnergies {
   double kinetic = 0, elastic = 0;  ///< [J]
   double potential = 0;             ///< of the loads, 0 at the start [J]
   double limits = 0, contact = 0;   ///< of the barriers [J]
+  double dissipated = 0;            ///< by friction since the start, not part of the total [J]
   double total() const { return kinetic + elastic + potential + limits + contact; }
 };
 
 /// A sheet in motion by implicit Euler: each step is the minimum of the energy with inertia, with limits and contact as
 /// in an equilibrium, so neither is ever violated. Grips are springs so stiff that the sheet's weight stretches them by
 /// 10⁻⁵ of its size; where limits or bodies hold the sheet they stay behind instead of pulling it through, and so do
-/// bodies that move against a sheet that cannot give way.
+/// bodies that move against a sheet that cannot give way. Friction is lagged (SheetFrictionSolver): contacts that hold
+/// creep, at 10⁻³ of the sheet's size a second at most.
 class MacroMotion {
  public:
   /// From `start`, at rest. Throws base::InputError (location empty) as MacroSimulation::equilibrium does, for grips of
   /// nodes that are not there, that are clamped or gripped twice, and for options that make no sense.
   MacroMotion(std::shared_ptr<const MacroSimulation> simulation, MacroLoads loads, std::vector<MacroGrip> grips,
               const Vector& start, const MacroMotionOptions& options);
+
+  MacroMotion(const MacroMotion&) = delete;
+  MacroMotion& operator=(const MacroMotion&) = delete;
 
   double time() const { return time_; }
   const Vector& positions() const { return positions_; }
@@ -76,6 +81,9 @@ class MacroMotion {
   double time_ = 0, barrier_ = 0, gripStiffness_ = 0;
   std::shared_ptr<mechanics::ContactBarrier> contact_;
   solvers::EnergyMinimizer minimizer_;
+  std::optional<SheetFrictionSolver> rubbing_;
+  SheetFriction friction_;  ///< of the last step
+  double dissipated_ = 0;
 };
 
 }  // namespace pliant::interlock

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
@@ -23,6 +24,9 @@ constexpr double barrierDecay = 0.1;
 constexpr int mostBarriers = 20;
 /// Until the last barrier equilibria are only followed.
 constexpr double looseTolerance = 1e-3;
+/// Of an increment with friction, over the size of the sheet: how far contacts creep, and how long it is.
+constexpr double creepOfRest = 1e-4;
+constexpr double longestIncrement = 0.02;
 
 std::shared_ptr<const mechanics::ElasticAssembler> assemblerOf(
     const Vector& rest, const std::vector<std::shared_ptr<const mechanics::Energy>>& energies) {
@@ -34,7 +38,7 @@ std::shared_ptr<const mechanics::ElasticAssembler> assemblerOf(
   return std::make_shared<const mechanics::ElasticAssembler>(std::move(model));
 }
 
-void checkMaterial(const MacroMaterial& material) {
+void checkMaterial(const MacroMaterial& material, double margin) {
   const auto mustBeAbove = [](double value, const char* what) {
     if (!(value > 0) || !std::isfinite(value))
       throw base::InputError("", std::string(what) + " must be above 0, but is " + std::to_string(value) + ".");
@@ -42,9 +46,14 @@ void checkMaterial(const MacroMaterial& material) {
   mustBeAbove(material.youngModulus, "Young's modulus");
   mustBeAbove(material.density, "The density");
   mustBeAbove(material.thickness, "The thickness");
-  for (const auto& set : {material.stretch, material.bending})
-    if (set && !(set->gauge(Eigen::Vector3d::Zero()).value < 1))
-      throw base::InputError("", "A material's limits do not allow for its shape at rest.");
+  for (const auto& set : {material.stretch, material.bending}) {
+    const double rest = set ? set->gauge(Eigen::Vector3d::Zero()).value : 0;
+    if (!(rest < 1)) throw base::InputError("", "A material's limits do not allow for its shape at rest.");
+    if (!(rest < 1 - margin))
+      throw base::InputError("", "A margin of " + std::to_string(margin) +
+                                     " does not allow for a material's shape at rest; that needs less than " +
+                                     std::to_string(1 - rest) + ".");
+  }
 }
 
 }  // namespace
@@ -55,8 +64,14 @@ MacroSimulation::MacroSimulation(MacroSheet sheet, const MacroOptions& options, 
   const Eigen::Matrix3Xd& points = sheet_.mesh.points;
   if (points.row(2).cwiseAbs().maxCoeff() > 1e-9 * size())
     throw base::InputError("", "A sheet of interlocking material must lie in the plane z = 0 at rest.");
+  if (!(options_.margin >= 0 && options_.margin < 1))
+    throw base::InputError("", "The margin must be at least 0 and below 1.");
+  if (options_.margin > 0 && options_.limits != StrainLimitFunction::Kind::barrier)
+    throw base::InputError("", "A penalty keeps no margin.");
   if (sheet_.materials.empty()) throw base::InputError("", "A sheet of interlocking material needs a material.");
-  for (const MacroMaterial& material : sheet_.materials) checkMaterial(material);
+  for (const MacroMaterial& material : sheet_.materials) checkMaterial(material, options_.margin);
+  if (!(contact_.friction >= 0) || !std::isfinite(contact_.friction))
+    throw base::InputError("", "The coefficient of friction must not be negative.");
   masses_.setZero(points.cols());
   std::vector<std::shared_ptr<const mechanics::Energy>> elastic, limits;
   const auto count = static_cast<Index>(sheet_.mesh.triangles.size());
@@ -93,7 +108,7 @@ MacroSimulation::MacroSimulation(MacroSheet sheet, const MacroOptions& options, 
   }
   if (panels.size() > 1)
     if (auto seams = mechanics::makeSeamBending(panels)) elastic.push_back(std::move(seams));
-  StrainLimitFunction function{options_.limits, 1};
+  const StrainLimitFunction function{options_.limits, 1, options_.margin};
   if (auto stretch = mechanics::makeStretchLimit(triangles_, function)) limits.push_back(std::move(stretch));
   if (auto bending = mechanics::makeCurvatureLimit(triangles_, function)) limits.push_back(std::move(bending));
   elastic_ = assemblerOf(rest(), elastic);
@@ -104,6 +119,12 @@ double MacroSimulation::size() const {
   return (sheet_.mesh.points.rowwise().maxCoeff() - sheet_.mesh.points.rowwise().minCoeff()).norm();
 }
 
+Eigen::Matrix3Xd MacroSimulation::withBodies(const Vector& positions, const Eigen::Matrix3Xd& bodyPoints) const {
+  Eigen::Matrix3Xd all(3, masses_.size() + bodyPoints.cols());
+  all << positions.reshaped(3, masses_.size()), bodyPoints;
+  return all;
+}
+
 std::shared_ptr<mechanics::ContactBarrier> MacroSimulation::contactFrom(const Vector& start,
                                                                         const Eigen::Matrix3Xd& bodyPoints) const {
   constexpr double gravity = 9.81;
@@ -111,8 +132,7 @@ std::shared_ptr<mechanics::ContactBarrier> MacroSimulation::contactFrom(const Ve
       mechanics::makeSheetContact({sheet_.mesh.triangles, contact_.bodies, contact_.distance, contact_.selfContact},
                                   sheet_.mesh.points, masses_.mean() * gravity);
   if (!contact) return nullptr;
-  Eigen::Matrix3Xd all(3, masses_.size() + bodyPoints.cols());
-  all << start.reshaped(3, masses_.size()), bodyPoints;
+  const Eigen::Matrix3Xd all = withBodies(start, bodyPoints);
   contact->requireFree(all);
   contact->update(all);
   return contact;
@@ -121,8 +141,7 @@ std::shared_ptr<mechanics::ContactBarrier> MacroSimulation::contactFrom(const Ve
 void MacroSimulation::judgeContact(MacroState& state, mechanics::ContactBarrier* contact,
                                    const Eigen::Matrix3Xd& bodyPoints, const Eigen::Vector3d& up) const {
   if (!contact) return;
-  Eigen::Matrix3Xd all(3, masses_.size() + bodyPoints.cols());
-  all << state.positions.reshaped(3, masses_.size()), bodyPoints;
+  const Eigen::Matrix3Xd all = withBodies(state.positions, bodyPoints);
   contact->update(all);
   state.smallestGap = contact->smallestGap(all);
   state.supported = 0;
@@ -169,9 +188,9 @@ void MacroSimulation::judge(MacroState& state) const {
   for (Index t = 0; t < count; ++t) {
     const auto look = [&](const std::shared_ptr<const AdmissibleStrainSet>& set, const Eigen::Vector3d& strain) {
       if (!set) return 0.0;
-      const double g = set->gauge(strain).value;
-      state.violation = std::max(state.violation, isBarrier ? g - 1 : set->distance(strain).value);
-      if (isBarrier) state.remaining += areas_[t] * state.barrier * 2 * g / (1 + g);
+      const double g = set->gauge(strain).value, within = g / (1 - options_.margin);
+      state.violation = std::max(state.violation, isBarrier ? within - 1 : set->distance(strain).value);
+      if (isBarrier) state.remaining += areas_[t] * state.barrier * 2 * within / (1 + within);
       return g;
     };
     const auto& triangle = triangles_[static_cast<std::size_t>(t)];
@@ -191,6 +210,10 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
   const Eigen::Matrix3Xd bodyPoints = mechanics::bodyPointsAt(contact_.bodies, 0);
   const auto contact = contactFrom(from, bodyPoints);
   minimizer.setContact(contact, bodyPoints);
+  std::optional<FrictionalRest> rubbing;
+  if (contact && contact_.friction > 0)
+    rubbing.emplace(minimizer, contact, bodyPoints, masses_, contact_.friction,
+                    FrictionalRestOptions{creepOfRest * size(), longestIncrement * size()});
   const bool isBarrier = limits_ && options_.limits == StrainLimitFunction::Kind::barrier;
   state.barrier = isBarrier ? firstBarrier * surroundings.force.reshaped(3, masses_.size()).colwise().norm().sum() *
                                   size() / areas_.sum()
@@ -208,7 +231,8 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
             (x - state.path.back()).reshaped(3, masses_.size()).colwise().norm().maxCoeff() >= options_.pathSpacing)
           state.path.push_back(x);
       };
-    state.report = minimizer.minimize(state.positions, surroundings, options, context);
+    state.report = rubbing ? rubbing->settle(state.positions, surroundings, options, context)
+                           : minimizer.minimize(state.positions, surroundings, options, context);
     for (base::IterationRecord record : state.report.iterations) {
       record.iteration = static_cast<int>(records.size());
       records.push_back(record);
@@ -222,6 +246,10 @@ MacroState MacroSimulation::equilibrium(const MacroLoads& loads, const Vector* s
     }
   }
   judgeContact(state, contact.get(), bodyPoints, -loads.gravity.stableNormalized());
+  if (rubbing) {
+    state.friction = rubbing->friction();
+    state.increments = rubbing->increments();
+  }
   state.report.iterations = std::move(records);
   state.report.seconds = watch.seconds();
   return state;

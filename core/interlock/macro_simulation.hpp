@@ -5,6 +5,7 @@
 #include "core/base/execution_context.hpp"
 #include "core/base/solver_report.hpp"
 #include "core/geometry/surface_mesh.hpp"
+#include "core/interlock/sheet_friction.hpp"
 #include "core/mechanics/admissible_strain_set.hpp"
 #include "core/mechanics/contact_body.hpp"
 #include "core/mechanics/strain_limits.hpp"
@@ -38,6 +39,7 @@ struct MacroContact {
   std::vector<mechanics::Body> bodies;
   double distance = 1e-3;    ///< gap below which contact begins to push [m]
   bool selfContact = false;  ///< whether the sheet also touches itself
+  double friction = 0;       ///< Coulomb's coefficient of all contacts
 };
 
 struct MacroLoads {
@@ -48,6 +50,9 @@ struct MacroLoads {
 
 struct MacroOptions {
   mechanics::StrainLimitFunction::Kind limits = mechanics::StrainLimitFunction::Kind::barrier;
+  /// Of a barrier: strains keep this far inside, their gauges below 1 - margin, so that elements have room (see
+  /// StrainLimitFunction).
+  double margin = 0;
   double penalty = 1e7;     ///< c of the penalty [J/m²] (thesis 4.3.5)
   double tolerance = 1e-8;  ///< see EnergyMinimizerOptions
   /// The barrier shrinks until what it could still yield is below this fraction of the work that loads have done.
@@ -63,14 +68,16 @@ struct MacroState {
   base::SolverReport report;  ///< all iterations; the residual is that of EnergyMinimizer
   mechanics::SheetStrains strains;
   Eigen::VectorXd stretchGauge, bendingGauge;  ///< per triangle: 1 at the limit; 0 without one
-  /// Largest distance outside a limit over the size of its set; 0: none is outside.
+  /// Largest distance outside a limit, less the margin, over the size of its set; 0: none is outside.
   double violation = 0;
   double barrier = 0;    ///< the last coefficient [J/m²]; of the penalty its c
   double remaining = 0;  ///< how much lower the energy could be without the barrier's room, to first order [J]
   double work = 0;       ///< of the loads from rest [J]
   /// Between the sheet and bodies and itself [m]; infinite: there is nothing near that it may touch.
   double smallestGap = std::numeric_limits<double>::infinity();
-  double supported = 0;  ///< Σ of the forces with which bodies push against the sheet's weight [N]
+  double supported = 0;    ///< Σ of the forces with which bodies push against the sheet's weight [N]
+  SheetFriction friction;  ///< of the last increment or step
+  int increments = 0;      ///< in which an equilibrium with friction was found
   /// Positions on the way, the start first and the last not among them: all within the limits, and none through
   /// anything.
   std::vector<Vector> path;
@@ -81,8 +88,8 @@ struct MacroState {
 /// its motion see MacroMotion.
 class MacroSimulation {
  public:
-  /// Throws base::InputError (location empty) for a mesh that is not flat, a number that makes no sense, or a material
-  /// that does not allow for its rest shape, or a contact distance that is not above 0.
+  /// Throws base::InputError (location empty) for a mesh that is not flat, a number that makes no sense, a material
+  /// that does not allow for its rest shape, or not with the margin, or a contact distance that is not above 0.
   MacroSimulation(MacroSheet sheet, const MacroOptions& options, MacroContact contact = {});
 
   const MacroSheet& sheet() const { return sheet_; }
@@ -91,8 +98,9 @@ class MacroSimulation {
   const Vector& masses() const { return masses_; }
   Vector rest() const { return sheet_.mesh.points.reshaped(); }
 
-  /// Static equilibrium, from `start`, which must be within the limits where there is a barrier, and free of bodies and
-  /// of itself; null: from rest. Throws base::InputError (location empty) if it meets something.
+  /// Static equilibrium, with friction that of a slow motion (FrictionalRest), from `start`, which must be within the
+  /// limits where there is a barrier, and free of bodies and of itself; null: from rest. Throws base::InputError
+  /// (location empty) if it meets something.
   MacroState equilibrium(const MacroLoads& loads, const Vector* start, base::ExecutionContext& context) const;
 
  private:
@@ -107,6 +115,8 @@ class MacroSimulation {
   void judgeContact(MacroState& state, mechanics::ContactBarrier* contact, const Eigen::Matrix3Xd& bodyPoints,
                     const Eigen::Vector3d& up) const;
   double size() const;
+  /// Of the sheet's nodes and the bodies' points, one after the other [m].
+  Eigen::Matrix3Xd withBodies(const Vector& positions, const Eigen::Matrix3Xd& bodyPoints) const;
   /// What shrinking the barrier to nothing could yield, to first order: Σ area c g ψ'(g) (1 - g).
   void judge(MacroState& state) const;
 

@@ -28,7 +28,7 @@ Eigen::Matrix2Xd boxAround(const geometry::SurfaceMesh& sheet, const Eigen::Rota
 }  // namespace
 
 SheetDetailer::SheetDetailer(const UnitCell& cell, geometry::SurfaceMesh sheet, double angle, const Vector2d& centre,
-                             const DetailOptions& options)
+                             const DetailOptions& options, const DetailMaterials& materials)
     : cell_(cell), options_(options), shape_(std::move(sheet)), radius_(std::numeric_limits<double>::infinity()) {
   if (!cell.isPeriodic()) throw base::InputError("", "The elements of a sheet are those of a material that repeats.");
   for (const ElementShape& shape : cell.shapes) {
@@ -47,10 +47,15 @@ SheetDetailer::SheetDetailer(const UnitCell& cell, geometry::SurfaceMesh sheet, 
   if (extent.prod() / area * static_cast<double>(cell.elements.size()) > mostDetailElements)
     throw base::InputError("", "The sheet would have more than a million elements.");
   const FabricPatch all = patchInside(cell, rest, boxAround(shape_.mesh(), toSheet.inverse(), centre));
+  const int elementsOfMaterial = static_cast<int>(cell.elements.size()) / materials.count;
   std::vector<PatchElement> inside;
   for (const PatchElement& element : all.elements) {
     const Vector2d place = toSheet * Vector2d(placeOf(cell, rest, element).head<2>() - centre);
-    if (shape_.placeOf(place)) inside.push_back(element);
+    const std::optional<SheetShape::Place> at = shape_.placeOf(place);
+    if (!at) continue;
+    const int material =
+        materials.ofTriangle.empty() ? 0 : materials.ofTriangle[static_cast<std::size_t>(at->triangle)];
+    if (element.element / elementsOfMaterial == material) inside.push_back(element);
   }
   if (inside.empty()) throw base::InputError("", "No element of the material is in the sheet.");
   const FabricPatch patch = linkedPatch(cell, std::move(inside));

@@ -37,6 +37,12 @@ struct SheetDetail {
   double seconds = 0;
 };
 
+/// Of the triangles of a sheet of several materials, see sharedLattice.
+struct DetailMaterials {
+  std::vector<int> ofTriangle;  ///< empty: the first
+  int count = 1;
+};
+
 /// Places the elements of a material where its sheet leads them, so that they neither meet nor lose a link. They follow
 /// the sheet along a path from a flat, undeformed start, where they are as in the material at rest.
 ///
@@ -49,10 +55,11 @@ struct SheetDetail {
 class SheetDetailer {
  public:
   /// `angle` is that of the material's first axis in the sheet [rad]; `centre` where the sheet's origin is in the
-  /// material [m]. Throws base::InputError (location empty) for a sheet with no element in it, or of elements with
-  /// pieces without a radius.
+  /// material [m]; of a sharedLattice `materials` say which of its materials is where.
+  /// Throws base::InputError (location empty) for a sheet with no element in it, or of elements with pieces without a
+  /// radius.
   SheetDetailer(const UnitCell& cell, geometry::SurfaceMesh sheet, double angle, const Eigen::Vector2d& centre,
-                const DetailOptions& options = {});
+                const DetailOptions& options = {}, const DetailMaterials& materials = {});
 
   /// `path`: positions of the sheet's nodes, the first flat and as long as at rest, one at least.
   SheetDetail follow(const std::vector<Eigen::Matrix3Xd>& path, base::ExecutionContext& context) const;

@@ -7,8 +7,8 @@
 
 namespace pliant::mechanics {
 
-/// What the equation of motion of one model loses or gains with a parameter p, all else fixed: free coordinates, τ, ω.
-/// Kinds of parameters override what they touch; the rest does not depend on them. One thread at a time.
+/// What the equation of motion of one model loses or gains with a parameter p, all else fixed: free coordinates, phases
+/// θ, ω. Kinds of parameters override what they touch; the rest does not depend on them. One thread at a time.
 class ModelDerivative {
  public:
   explicit ModelDerivative(const Model& model) : model_(model) {}
@@ -16,14 +16,15 @@ class ModelDerivative {
 
   /// dM/dp, square over all coordinates.
   virtual SparseMatrix mass() const;
-  /// d(f_ext)/dp at τ, on all coordinates (gravity's dependence on mass included).
-  virtual Vector externalForce(double tau) const;
+  /// d(f_ext)/dp at θ, on all coordinates (gravity's dependence on mass included).
+  virtual Vector externalForce(math::Phases phases) const;
   /// d(∇E)/dp at some configurations `x` (one a row, all coordinates), like x.
   virtual Matrix gradient(const Matrix& x) const;
-  /// How the coordinates that are not free move with p at τ; 0 for the free ones.
-  virtual Vector prescribed(double tau) const;
+  /// How the coordinates that are not free move with p at θ; 0 for the free ones.
+  virtual Vector prescribed(math::Phases phases) const;
   virtual double massDamping() const { return 0; }       ///< dD_α/dp
   virtual double stiffnessDamping() const { return 0; }  ///< dD_β/dp
+  virtual double driveFrequency() const { return 0; }    ///< dω/dp, of the motion that is sought
 
  protected:
   const Model& model_;

@@ -8,6 +8,12 @@ namespace pliant::mechanics {
 
 namespace {
 
+class FrequencyDerivative final : public ModelDerivative {
+ public:
+  using ModelDerivative::ModelDerivative;
+  double driveFrequency() const override { return 1; }
+};
+
 class DriveFrequency final : public DesignParameter {
  public:
   explicit DriveFrequency(DriveFrequencyOptions options) : options_(std::move(options)) {
@@ -37,7 +43,7 @@ class DriveFrequency final : public DesignParameter {
   }
 
   std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
-    return std::make_unique<ModelDerivative>(model);
+    return std::make_unique<FrequencyDerivative>(model);
   }
 
  private:

@@ -10,8 +10,9 @@
 namespace pliant::mechanics {
 
 /// The frequency of the drive as a design parameter. It belongs to motions, not to the model: the equation of motion is
-/// the same, dh/dω is what ∂h/∂p of this parameter is (HarmonicBalanceProblem::parameterDerivative), and a model that
-/// has the parameter says by its value at which frequency its motions are sought.
+/// The frequency of the drive as a design parameter. It belongs to motions, not to the model: a model that has the
+/// parameter says by its value at which frequency its motions are sought, and its derivative is ModelDerivative's
+/// `driveFrequency` alone.
 struct DriveFrequencyOptions {
   std::string name;
   std::string pointer;

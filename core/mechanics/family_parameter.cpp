@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/mechanics/checks.hpp"
+#include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
 #include "core/mechanics/joint_parameter.hpp"
 
@@ -30,27 +32,33 @@ struct Neighbour {
   std::shared_ptr<const Model> model;
 };
 
-std::vector<Neighbour> neighboursWith(const Stencil& stencil, const DesignParameter& parameter, const Model& model,
-                                      double relativeStep) {
-  const double middle = parameter.value(model), range = parameter.maximum(model) - parameter.minimum(model);
-  const double step = relativeStep * std::max(std::abs(middle), 0.1 * range);
-  std::vector<Neighbour> neighbours;
-  for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
-    if (stencil.weights[i] != 0)
-      neighbours.push_back({stencil.weights[i] / step, std::make_shared<const Model>(parameter.withValue(
-                                                           model, middle + stencil.offsets[i] * step))});
-  return neighbours;
+double stepOf(const DesignParameter& parameter, const Model& model, double relativeStep) {
+  const double range = parameter.maximum(model) - parameter.minimum(model);
+  return relativeStep * std::max(std::abs(parameter.value(model)), 0.1 * range);
 }
 
-std::vector<Neighbour> neighboursOf(const DesignParameter& parameter, const Model& model, double relativeStep = 2e-3) {
+/// `modelAt` gets multiples of the step.
+std::vector<Neighbour> neighboursOf(double step, const std::function<Model(double offset)>& modelAt) {
   for (const Stencil& stencil : stencils) try {
-      return neighboursWith(stencil, parameter, model, relativeStep);
+      std::vector<Neighbour> neighbours;
+      for (std::size_t i = 0; i < stencil.offsets.size(); ++i)
+        if (stencil.weights[i] != 0)
+          neighbours.push_back(
+              {stencil.weights[i] / step, std::make_shared<const Model>(modelAt(stencil.offsets[i] * step))});
+      return neighbours;
     } catch (const base::InputError&) {
       // There are no models a little farther; the last stencil's error is the one to report.
       if (&stencil == &stencils.back()) throw;
     }
   return {};
 }
+
+std::vector<Neighbour> neighboursOf(const DesignParameter& parameter, const Model& model, double relativeStep) {
+  return neighboursOf(stepOf(parameter, model, relativeStep),
+                      [&](double offset) { return parameter.withValue(model, parameter.value(model) + offset); });
+}
+
+constexpr double usualStep = 2e-3;
 
 class FamilyDerivative final : public ModelDerivative {
  public:
@@ -63,9 +71,9 @@ class FamilyDerivative final : public ModelDerivative {
     return sum;
   }
 
-  Vector externalForce(double tau) const override {
-    Vector sum = ModelDerivative::externalForce(tau);
-    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->externalForce(tau);
+  Vector externalForce(math::Phases phases) const override {
+    Vector sum = ModelDerivative::externalForce(phases);
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->externalForce(phases);
     return sum;
   }
 
@@ -81,10 +89,10 @@ class FamilyDerivative final : public ModelDerivative {
     return sum;
   }
 
-  Vector prescribed(double tau) const override {
-    Vector sum = ModelDerivative::prescribed(tau);
+  Vector prescribed(math::Phases phases) const override {
+    Vector sum = ModelDerivative::prescribed(phases);
     const Vector free = Vector::Zero(model_.dofs.freeCount());
-    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->configuration(free, tau);
+    for (const Neighbour& n : neighbours_) sum += n.weight * n.model->configuration(free, phases);
     return sum;
   }
 
@@ -97,6 +105,12 @@ class FamilyDerivative final : public ModelDerivative {
   double stiffnessDamping() const override {
     double sum = 0;
     for (const Neighbour& n : neighbours_) sum += n.weight * n.model->stiffnessDamping;
+    return sum;
+  }
+
+  double driveFrequency() const override {
+    double sum = 0;
+    for (const Neighbour& n : neighbours_) sum += n.weight * mechanics::driveFrequency(*n.model).value_or(0);
     return sum;
   }
 
@@ -134,7 +148,7 @@ class FamilyMember final : public JointParameter {
   }
 
   std::unique_ptr<ModelDerivative> derivative(const Model& model) const override {
-    return std::make_unique<FamilyDerivative>(model, neighboursOf(*this, model));
+    return std::make_unique<FamilyDerivative>(model, neighboursOf(*this, model, usualStep));
   }
 
  private:
@@ -166,6 +180,23 @@ double derivativeOf(const std::function<double(const Model&)>& number, const Des
   for (const Neighbour& neighbour : neighboursOf(parameter, model, relativeStep))
     sum += neighbour.weight * number(*neighbour.model);
   return sum;
+}
+
+std::unique_ptr<ModelDerivative> derivativeAlong(const Model& model,
+                                                 const std::vector<std::shared_ptr<const DesignParameter>>& parameters,
+                                                 const Vector& direction) {
+  Vector values(direction.size());
+  double step = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+    const DesignParameter& parameter = *parameters[static_cast<std::size_t>(i)];
+    values[i] = parameter.value(model);
+    if (direction[i] != 0) step = std::min(step, stepOf(parameter, model, usualStep) / std::abs(direction[i]));
+  }
+  if (!std::isfinite(step)) return std::make_unique<ModelDerivative>(model);
+  return std::make_unique<FamilyDerivative>(model, neighboursOf(step, [&](double offset) {
+                                              return withParameterValues(
+                                                  model, parameters, values + offset * direction);
+                                            }));
 }
 
 std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyParameter parameter,

@@ -32,4 +32,10 @@ std::shared_ptr<const DesignParameter> makeFamilyParameter(int index, FamilyPara
 double derivativeOf(const std::function<double(const Model&)>& number, const DesignParameter& parameter,
                     const Model& model, double relativeStep);
 
+/// The derivatives along `direction` in the space of parameters of any kind, an entry each. Differences as above, so
+/// that a direction costs no more than one parameter.
+std::unique_ptr<ModelDerivative> derivativeAlong(const Model& model,
+                                                 const std::vector<std::shared_ptr<const DesignParameter>>& parameters,
+                                                 const Vector& direction);
+
 }  // namespace pliant::mechanics

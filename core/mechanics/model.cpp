@@ -1,5 +1,6 @@
 #include "core/mechanics/model.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "core/base/error.hpp"
@@ -122,7 +123,7 @@ SparseMatrix Model::massMatrix() const {
   return elementMass ? SparseMatrix(*elementMass + points) : points;
 }
 
-Vector Model::externalForce(double tau) const {
+Vector Model::externalForce(math::Phases phases) const {
   Vector force = Vector::Zero(coordinateCount());
   if (!gravity.isZero(0)) {
     if (elementMass) {
@@ -134,17 +135,26 @@ Vector Model::externalForce(double tau) const {
       for (const int node : mass.nodes) force.segment(node * dimension, dimension) += mass.mass * gravity;
   }
   for (const HarmonicForce& load : forces) {
-    const Vector value = load.signal(tau) * load.direction;
+    const Vector value = load.signal(phases) * load.direction;
     for (const int node : load.nodes) force.segment(node * dimension, dimension) += value;
   }
   return force;
 }
 
-Vector Model::configuration(const Vector& free, double tau) const {
+Vector Model::configuration(const Vector& free, math::Phases phases) const {
   Vector x = restPositions;
   for (int i = 0; i < dofs.freeCount(); ++i) x[dofs.freeCoordinates[i]] = free[i];
-  for (const auto& drive : drives) x(drive->coordinates()) = drive->values(restPositions(drive->coordinates()), tau);
+  for (const auto& drive : drives) x(drive->coordinates()) = drive->values(restPositions(drive->coordinates()), phases);
   return x;
+}
+
+bool Model::hasSecondFrequency() const {
+  const auto has = [](const PeriodicSignal& signal) {
+    return std::any_of(
+        signal.terms.begin(), signal.terms.end(), [](const auto& term) { return term.ofSecondFrequency; });
+  };
+  return std::any_of(drives.begin(), drives.end(), [&](const auto& drive) { return has(drive->signal()); }) ||
+         std::any_of(forces.begin(), forces.end(), [&](const auto& force) { return has(force.signal); });
 }
 
 std::vector<int> Model::drivenNodes() const {

@@ -25,7 +25,7 @@ struct PointMass {
   double maximum = 0;
 };
 
-/// force(τ) = direction * signal(τ) [N] on each of some nodes. `direction` is used as given (not normalised).
+/// force(θ) = direction * signal(θ) [N] on each of some nodes. `direction` is used as given (not normalised).
 struct HarmonicForce {
   std::string name;
   std::vector<int> nodes;
@@ -33,7 +33,7 @@ struct HarmonicForce {
   PeriodicSignal signal;
 };
 
-/// Some coordinates as a function of a signal of τ, eliminated exactly from the unknowns.
+/// Some coordinates as a function of a signal of the phases θ, eliminated exactly from the unknowns.
 class PrescribedMotion {
  public:
   virtual ~PrescribedMotion() = default;
@@ -42,8 +42,8 @@ class PrescribedMotion {
   /// Values of these coordinates [m], which rest at `rest` (both of the size of coordinates()), for a value of the
   /// signal.
   virtual Vector place(const Vector& rest, double signalValue) const = 0;
-  /// Their values at τ.
-  Vector values(const Vector& rest, double tau) const { return place(rest, signal()(tau)); }
+  /// Their values at θ.
+  Vector values(const Vector& rest, math::Phases phases) const { return place(rest, signal()(phases)); }
 };
 
 /// A node whose trajectory and amplitude are reported.
@@ -88,7 +88,7 @@ struct DofMap {
 
 class DesignParameter;
 
-/// A discrete mechanical system M ẍ + D ẋ + ∇E(x) = f(τ), D = massDamping M + stiffnessDamping ∇²E(x).
+/// A discrete mechanical system M ẍ + D ẋ + ∇E(x) = f(θ), D = massDamping M + stiffnessDamping ∇²E(x).
 /// Constant once built; copying it is cheap (energies are shared), so a changed parameter is a changed copy.
 ///
 /// Its coordinates are the positions of the nodes (coordinate node * dimension + axis), followed by `scalarCount`
@@ -125,10 +125,12 @@ struct Model {
 
   /// M with the point masses, square over all coordinates [kg].
   SparseMatrix massMatrix() const;
-  /// External forces on all coordinates at τ [N], gravity included.
-  Vector externalForce(double tau) const;
-  /// All coordinates at τ with the free ones taken from `free` (size freeCount) [m].
-  Vector configuration(const Vector& free, double tau) const;
+  /// External forces on all coordinates at θ [N], gravity included.
+  Vector externalForce(math::Phases phases) const;
+  /// All coordinates at θ with the free ones taken from `free` (size freeCount) [m].
+  Vector configuration(const Vector& free, math::Phases phases) const;
+  /// Whether a drive or load has a term of the second driving frequency.
+  bool hasSecondFrequency() const;
   /// The nodes of which a coordinate is driven, ascending.
   std::vector<int> drivenNodes() const;
 };

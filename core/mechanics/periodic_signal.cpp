@@ -4,9 +4,10 @@
 
 namespace pliant::mechanics {
 
-double PeriodicSignal::operator()(double tau) const {
+double PeriodicSignal::operator()(math::Phases phases) const {
   double sum = 0;
-  for (const Term& term : terms) sum += term.amplitude * std::cos(term.order * tau + term.phase);
+  for (const Term& term : terms)
+    sum += term.amplitude * std::cos(term.order * (term.ofSecondFrequency ? phases.second : phases.first) + term.phase);
   return sum;
 }
 

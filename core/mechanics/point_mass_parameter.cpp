@@ -21,7 +21,7 @@ class PointMassDerivative final : public ModelDerivative {
     return derivative;
   }
 
-  Vector externalForce(double) const override {
+  Vector externalForce(math::Phases) const override {
     Vector derivative = Vector::Zero(model_.coordinateCount());
     for (const int node : nodes_) derivative.segment(node * model_.dimension, model_.dimension) += model_.gravity;
     return derivative;

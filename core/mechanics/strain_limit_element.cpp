@@ -42,7 +42,11 @@ StrainFunction limitPotential(const AdmissibleStrainSet& set, const StrainLimitF
   const double c = function.coefficient;
   StrainFunction result;
   if (function.kind == StrainLimitFunction::Kind::barrier) {
-    const StrainFunction g = set.gauge(strain, withDerivatives);
+    StrainFunction g = set.gauge(strain, withDerivatives);
+    const double shrunk = 1 / (1 - function.margin);
+    g.value *= shrunk;
+    g.gradient *= shrunk;
+    g.hessian *= shrunk;
     const double room = 1 - g.value * g.value;
     if (!(room > 0)) {
       result.value = std::numeric_limits<double>::infinity();

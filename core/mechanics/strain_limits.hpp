@@ -13,11 +13,14 @@ class AdmissibleStrainSet;
 /// What keeps the strains s of triangles in their admissible sets, an energy an area:
 struct StrainLimitFunction {
   enum class Kind {
-    barrier,  ///< -c ln(1 - g²) with the set's gauge g: never violated
+    barrier,  ///< -c ln(1 - (g / (1 - margin))²) with the set's gauge g: never violated
     penalty   ///< c d³ outside, with the distance d from the set over its size (thesis 4.3.5)
   };
   Kind kind = Kind::barrier;
   double coefficient = 1;  ///< c [J/m²]
+  /// Of a barrier, below 1: strains stay within the set shrunk by this part about its middle, from where all of it is
+  /// seen, so that the shrunk one is inside of it.
+  double margin = 0;
 };
 
 /// A triangle of a sheet that is flat at rest, and the material's axes in it.

@@ -39,6 +39,8 @@ class ClothBuilder {
       problem_.wind = cloth::Wind{
           spaceVector(entry["velocity"]), entry["air_density"], entry["drag"], entry["gust"], entry["gust_period"]};
     });
+    if (json_["contact"]["friction"] != 0.0)
+      throw InputError("/contact/friction", "Studies of cloth know no friction; sheets of interlocking material do.");
     problem_.contactDistance = json_["contact"]["distance"];
     problem_.selfContact = json_["contact"]["self_contact"];
     finishSheet();

@@ -143,7 +143,13 @@ ParameterSpec contactSpec() {
                 {withDefault(positive(number("distance", "", "Gap below which surfaces begin to push each other.",
                                              dimensions::length)),
                              "1 mm"),
-                 withDefault(boolean("self_contact", "Whether the sheet also touches itself."), false)});
+                 withDefault(boolean("self_contact", "Whether the sheet also touches itself."), false),
+                 withDefault(within(number("friction", "μ",
+                                           "Coulomb's coefficient of all contacts of a sheet of interlocking material; "
+                                           "0: none. Cloth slides without friction.",
+                                           dimensions::none),
+                                    0, 10),
+                             0)});
 }
 
 ParameterSpec pinSpec() {

@@ -29,13 +29,16 @@ ResultChart measureChart(const CsvTable& designs, const Json& summary) {
       front{"none is better in both", Mark::line, {}, {}, 2};
   for (std::size_t row = 0; row < designs.size(); ++row) {
     if (designs.text(row, "motion") == "none") continue;
-    ResultSeries& series = designs.integer(row, "design") == 0 ? scene : all;
+    const int design = designs.integer(row, "design");
+    ResultSeries& series = design == 0 ? scene : all;
+    series.designs.push_back(design);
     series.x.push_back(perUnit * designs.number(row, columns[0]));
     series.y.push_back(perUnit * designs.number(row, columns[1]));
   }
   for (const Json& design : summary.at("front")) {
     front.x.push_back(perUnit * design.at("measures")[0].get<double>());
     front.y.push_back(perUnit * design.at("measures")[1].get<double>());
+    front.designs.push_back(design.at("design"));
   }
   ResultChart chart{std::to_string(summary.at("found_count").get<int>()) + " designs",
                     labelOf(measures[0]),
@@ -86,10 +89,12 @@ ResultChart pathChart(const CsvTable& paths, const Json& summary, const std::str
     if (!shown) continue;
     chart.series.back().x.push_back(axes[0].places[row]);
     chart.series.back().y.push_back(axes[1].places[row]);
+    chart.series.back().designs.push_back(design);
   }
   for (ResultSeries& series : chart.series) {  // closed
     series.x.push_back(series.x.front());
     series.y.push_back(series.y.front());
+    series.designs.push_back(series.designs.front());
   }
   // The scene's last, above the others.
   std::stable_partition(

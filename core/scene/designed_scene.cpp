@@ -21,29 +21,33 @@ void addMissingList(const Pointer& list, std::size_t count, const Json& normaliz
 
 }  // namespace
 
-Json designedScene(const Scene& scene, const DesignResult& result, const harmonic::DesignIterate& design) {
+Json sceneWithValues(const Scene& scene, const mechanics::Model& model, const std::vector<int>& parameters,
+                     const mechanics::Vector& values) {
   Json json = scene.json();
-  const mechanics::Model& model = *design.model;
   std::map<std::string, std::size_t> listSizes;
   const auto parameterAt = [&](std::size_t i) -> const mechanics::DesignParameter& {
-    return *model.parameters[static_cast<std::size_t>(result.parameters[i])];
+    return *model.parameters[static_cast<std::size_t>(parameters[i])];
   };
   const auto isEntry = [](const Pointer& pointer) {
     return pointer.back().find_first_not_of("0123456789") == std::string::npos;
   };
-  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+  for (std::size_t i = 0; i < parameters.size(); ++i)
     if (const Pointer pointer(parameterAt(i).pointer()); isEntry(pointer))
       ++listSizes[pointer.parent_pointer().to_string()];
-  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
     const Pointer pointer(parameterAt(i).pointer());
     if (isEntry(pointer))
       addMissingList(
           pointer.parent_pointer(), listSizes[pointer.parent_pointer().to_string()], scene.normalized(), json);
     if (!json.contains(pointer) && !scene.normalized().contains(pointer))
       throw base::InputError(scene.name() + ": " + pointer.to_string(), "The scene has no such value any more.");
-    json[pointer] = design.values[static_cast<Eigen::Index>(i)];
+    json[pointer] = values[static_cast<Eigen::Index>(i)];
   }
   return json;
+}
+
+Json designedScene(const Scene& scene, const DesignResult& result, const harmonic::DesignIterate& design) {
+  return sceneWithValues(scene, *design.model, result.parameters, design.values);
 }
 
 }  // namespace pliant::scene

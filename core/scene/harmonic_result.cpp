@@ -5,6 +5,7 @@
 #include "core/harmonic/constraint_violation.hpp"
 #include "core/scene/harmonic_names.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/second_frequency.hpp"
 #include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
@@ -153,11 +154,11 @@ void addConstraintViolation(const HarmonicResult& result, Json& json) {
 }  // namespace
 
 std::shared_ptr<const harmonic::HarmonicBalanceProblem> HarmonicResult::problemOf(const ResponsePoint& point) const {
-  return point.drivePeriods == 1 ? problem : subharmonicProblems_.at(point.drivePeriods);
+  return point.drivePeriods == problem->drivePeriods() ? problem : subharmonicProblems_.at(point.drivePeriods);
 }
 
 void HarmonicResult::addProblemOf(const ResponsePoint& point) {
-  if (point.drivePeriods == 1 || subharmonicProblems_.contains(point.drivePeriods)) return;
+  if (point.drivePeriods == problem->drivePeriods() || subharmonicProblems_.contains(point.drivePeriods)) return;
   subharmonicProblems_[point.drivePeriods] =
       std::make_shared<const harmonic::HarmonicBalanceProblem>(problem->withDrivePeriods(point.drivePeriods));
 }
@@ -175,8 +176,9 @@ Json HarmonicResult::summary() const {
   else
     addMotion(*this, json);
   addConstraintViolation(*this, json);
-  json["harmonics"] = problem->basis().harmonics();
-  json["samples"] = problem->basis().samples();
+  json["harmonics"] = problem->basis().order();
+  json["samples"] = problem->basis().samplesOfPeriod();
+  if (problem->basis().hasTwoFrequencies()) addSecondFrequency(*this, json);
   json["unknowns"] = problem->unknownCount();
   if (leftOut) json["left_out"] = *leftOut;
   if (leftOut || problem->unknownCount() < problem->size())
@@ -197,6 +199,7 @@ Json HarmonicResult::summary() const {
                    {"left_out", "relative to the longest path"},
                    {"largest_constraint_violation", "relative to the length of the link or bar"},
                    {"seconds", "s"}};
+  if (problem->basis().hasTwoFrequencies()) addSecondFrequencyUnits(json["units"]);
   addRunInformation(json, *this);
   return json;
 }

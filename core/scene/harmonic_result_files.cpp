@@ -12,6 +12,7 @@
 #include "core/scene/json_text.hpp"
 #include "core/scene/model_builder.hpp"
 #include "core/scene/result_folder.hpp"
+#include "core/scene/second_frequency.hpp"
 #include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
@@ -65,6 +66,13 @@ std::string responseTable(const HarmonicResult& result) {
   return csv.text();
 }
 
+/// "2" of one frequency, "2 -1" of two.
+std::string combinationName(const math::HarmonicBasis& basis, int k) {
+  if (!basis.hasTwoFrequencies()) return std::to_string(k);
+  const auto [first, second] = basis.combination(k);
+  return std::to_string(first) + " " + std::to_string(second);
+}
+
 std::string coefficientTable(const HarmonicResult& result) {
   const Model& model = result.problem->model();
   int harmonics = result.problem->basis().harmonics();
@@ -73,7 +81,8 @@ std::string coefficientTable(const HarmonicResult& result) {
   CsvWriter csv;
   csv.add("point").add("node").add("axis").add("constant [m]");
   for (int k = 1; k <= harmonics; ++k)
-    csv.add("sin " + std::to_string(k) + " [m]").add("cos " + std::to_string(k) + " [m]");
+    for (const char* function : {"sin ", "cos "})
+      csv.add(function + combinationName(result.problem->basis(), k) + " [m]");
   csv.endRow();
   int index = 0;
   for (const ResponsePoint& point : result.points) {
@@ -105,6 +114,11 @@ std::string trajectoryTable(const HarmonicResult& result) {
     const auto problem = result.problemOf(point);
     const int samples = problem->basis().samples();
     for (const auto& probe : model.probes) paths.push_back(problem->nodeTrajectory(point.z, probe.node));
+    // Samples of two phases follow no line of time.
+    if (problem->basis().hasTwoFrequencies()) {
+      addTimeSeries(result, point, index++, csv);
+      continue;
+    }
     for (int sample = 0; sample < samples; ++sample) {
       csv.add(index).add(sample).add(2 * std::numbers::pi * point.drivePeriods * sample / samples);
       for (const auto& path : paths)
@@ -116,7 +130,7 @@ std::string trajectoryTable(const HarmonicResult& result) {
   return csv.text();
 }
 
-/// Empty where there are no rigid constraints.
+/// Empty where there are no rigid constraints, and of two frequencies, whose samples follow no line of time.
 std::string constraintTable(const HarmonicResult& result) {
   CsvWriter csv;
   csv.add("point").add("sample").add("omega t [rad]").add("constraint violation").endRow();
@@ -124,7 +138,7 @@ std::string constraintTable(const HarmonicResult& result) {
   for (const ResponsePoint& point : result.points) {
     const auto problem = result.problemOf(point);
     const mechanics::Vector violations = harmonic::constraintViolations(*problem, point.z);
-    if (violations.size() == 0) return {};
+    if (violations.size() == 0 || problem->basis().hasTwoFrequencies()) return {};
     const int samples = problem->basis().samples();
     for (int sample = 0; sample < samples; ++sample)
       csv.add(index)
@@ -173,6 +187,8 @@ void readPoints(HarmonicResult& result, const std::string& response, const std::
     point.branch = csvInteger(row[3]);
     point.drivePeriods = csvInteger(row[4]);
     if (point.drivePeriods < 1 || point.drivePeriods > mostDrivePeriods) otherScene();
+    if (result.problem->basis().hasTwoFrequencies() && point.drivePeriods != result.problem->drivePeriods())
+      otherScene();
     result.addProblemOf(point);
     const auto count = static_cast<std::size_t>(result.problemOf(point)->basis().size());
     point.omega = csvNumber(row[5]);
@@ -235,6 +251,7 @@ void HarmonicResult::write(const std::filesystem::path& directory) const {
   folder.writeFile("response.csv", responseTable(*this));
   folder.writeFile("coefficients.csv", coefficientTable(*this));
   folder.writeFile("trajectories.csv", trajectoryTable(*this));
+  if (problem->basis().hasTwoFrequencies()) folder.writeFile("combinations.csv", combinationTable(*this));
   if (const std::string violations = constraintTable(*this); !violations.empty())
     folder.writeFile("constraint_violation.csv", violations);
   if (sensitivity && sensitivity->regular()) folder.writeFile("sensitivity.csv", sensitivityTable(*this));
@@ -255,7 +272,7 @@ std::shared_ptr<HarmonicResult> HarmonicResult::read(const Scene& scene, const s
       if (summary.at("kind") != result->kind())
         throw InputError(
             "", "This result has no periodic motions: it is of the kind " + summary.at("kind").dump() + ".");
-      const math::HarmonicBasis basis(summary.at("harmonics"), summary.at("samples"));
+      const math::HarmonicBasis basis = basisOfResult(summary);
       readSummary(*result, summary);
       harmonic::HarmonicBalanceProblem problem(
           modelOf(scene, summary), basis, 1, summary.value("coordinate_harmonics", std::vector<int>{}));

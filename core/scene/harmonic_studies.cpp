@@ -8,6 +8,7 @@
 #include "core/harmonic/node_harmonics.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/run_information.hpp"
+#include "core/scene/second_frequency.hpp"
 #include "core/scene/sensitivity_tables.hpp"
 
 namespace pliant::scene {
@@ -25,16 +26,15 @@ class HarmonicStudy : public Study {
   HarmonicStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model, const Json& options)
       : model_(std::move(model)), options_(options), provenance_(provenanceOf(scene, options)) {
     const char* key = options.contains("harmonics_tolerance") ? "maximum_harmonics" : "harmonics";
-    requireModestSize(scene, model_, name(), key, options[key]);
+    requireModestSize(
+        scene, model_, name(), key, options[key], hasSecondFrequency(options) ? options["samples"].get<int>() : 0);
   }
 
   std::string name() const override { return options_["name"]; }
   std::string type() const override { return options_["type"]; }
 
  protected:
-  harmonic::HarmonicBalanceProblem makeProblem() const {
-    return {model_, math::HarmonicBasis(options_["harmonics"], options_["samples"])};
-  }
+  harmonic::HarmonicBalanceProblem makeProblem() const { return {model_, basisOf(options_)}; }
 
   harmonic::PeriodicMotionOptions newtonOptions() const {
     harmonic::PeriodicMotionOptions newton;
@@ -45,7 +45,7 @@ class HarmonicStudy : public Study {
     return newton;
   }
 
-  bool wantsStability() const { return options_["stability"] == "on"; }
+  bool wantsStability() const { return options_["stability"] == "on" && !hasSecondFrequency(options_); }
 
   std::shared_ptr<HarmonicResult> makeResult() const {
     auto result = std::make_shared<HarmonicResult>();
@@ -88,6 +88,7 @@ class PeriodicMotionStudy final : public HarmonicStudy {
     if (motion.z.size() == result->problem->size() && motion.z.allFinite()) {
       harmonic::ResponsePoint point;
       point.omega = omega;
+      point.drivePeriods = result->problem->drivePeriods();
       point.amplitudes = amplitudesOf(*result->problem, motion.z);
       point.residual = motion.report.residual();
       point.correction = motion.report.correction();
@@ -213,18 +214,25 @@ class BackboneStudy final : public CurveStudy {
 }  // namespace
 
 void requireModestSize(const Scene& scene, const std::shared_ptr<const mechanics::Model>& model,
-                       const std::string& study, const std::string& key, int harmonics) {
+                       const std::string& study, const std::string& key, int harmonics, int samplesOfEach) {
   const mechanics::ElasticAssembler assembler(model);
-  const double size = 2.0 * harmonics + 1;
-  const double entries = size * size * (2.0 * assembler.entryCount() + model->dofs.freeCount());
-  if (entries <= mostJacobianEntries) return;
-  const auto names = studyNames(scene);
-  const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), study) - names.begin());
-  throw InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + key,
-                   std::to_string(harmonics) + " harmonics are too many for a model with " +
-                       std::to_string(model->dofs.freeCount()) + " free coordinates: the system would have " +
-                       std::to_string(static_cast<long long>(entries / 1e6)) + " million entries, and " +
-                       std::to_string(static_cast<long long>(mostJacobianEntries / 1e6)) + " are allowed.");
+  const bool twoFrequencies = samplesOfEach > 0;
+  const double size = 2.0 * harmonics * (twoFrequencies ? harmonics + 1 : 1) + 1;
+  const auto refuseBeyond = [&](double entries, const std::string& place, const std::string& what) {
+    if (entries <= mostJacobianEntries) return;
+    const auto names = studyNames(scene);
+    const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), study) - names.begin());
+    throw InputError(scene.name() + ": " + childPointer("/studies", index) + "/" + place,
+                     what + " too many for a model with " + std::to_string(model->dofs.freeCount()) +
+                         " free coordinates: the system would have " +
+                         std::to_string(static_cast<long long>(entries / 1e6)) + " million entries, and " +
+                         std::to_string(static_cast<long long>(mostJacobianEntries / 1e6)) + " are allowed.");
+  };
+  refuseBeyond(size * size * (2.0 * assembler.entryCount() + model->dofs.freeCount()), key,
+               std::to_string(harmonics) + " harmonics are");
+  if (twoFrequencies)
+    refuseBeyond(static_cast<double>(samplesOfEach) * samplesOfEach * assembler.entryCount(), "samples",
+                 std::to_string(samplesOfEach) + " times as many samples are");
 }
 
 std::unique_ptr<Study> makePeriodicMotionStudy(const Scene& scene, std::shared_ptr<const mechanics::Model> model,

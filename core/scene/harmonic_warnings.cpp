@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "core/mechanics/rod.hpp"
-#include "core/scene/study.hpp"
+#include "core/scene/second_frequency.hpp"
 
 namespace pliant::scene {
 
@@ -19,7 +19,8 @@ std::string unansweredDrive(const harmonic::HarmonicBalanceProblem& problem) {
   };
   for (const auto& drive : model.drives) visit(drive->signal());
   for (const auto& force : model.forces) visit(force.signal);
-  const int answered = problem.basis().harmonics() / problem.drivePeriods();
+  const int answered = problem.basis().hasTwoFrequencies() ? problem.basis().order()
+                                                           : problem.basis().harmonics() / problem.drivePeriods();
   if (highest <= answered) return {};
   return "Something drives at " + std::to_string(highest) + " times the frequency, but the motion has " +
          std::to_string(answered) + " harmonics, so the answer to it is missing: take more harmonics.";
@@ -57,6 +58,7 @@ std::vector<std::string> HarmonicResult::warnings() const {
   std::vector<std::string> sentences;
   for (std::string sentence : {isBackbone ? std::string() : unansweredDrive(*problem), untrustedTurn(*this)})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : secondFrequencyWarnings(*problem)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

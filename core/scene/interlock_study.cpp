@@ -31,7 +31,7 @@ std::string InterlockStudy::key() const {
 
 void InterlockStudy::finish(InterlockResult& result, base::TerminationType termination, const std::string& message,
                             const base::Stopwatch& watch) const {
-  result.cell = cell_;
+  if (!result.cell) result.cell = cell_;
   result.provenance = provenance_;
   result.termination = termination;
   result.message = message;

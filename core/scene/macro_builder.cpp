@@ -6,6 +6,7 @@
 #include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/hexagon_mesh.hpp"
 #include "core/geometry/mesh_generators.hpp"
+#include "core/geometry/mesh_kernel.hpp"
 #include "core/geometry/outline_mesh.hpp"
 #include "core/interlock/cell_surface.hpp"
 #include "core/interlock/strain_space_boundary.hpp"
@@ -30,13 +31,15 @@ Vector3d strainOfTensor(const Vector3d& tensor) {
   return {0.5 * (tensor[0] + tensor[1]), 0.5 * (tensor[0] - tensor[1]), tensor[2]};
 }
 
-/// From a surface whose coordinates are components of tensors. It is seen from the middle of what it encloses.
+/// From a surface whose coordinates are components of tensors. It is seen from the middle of what it encloses, or if
+/// not all of it is, from where all is seen best.
 std::shared_ptr<const AdmissibleStrainSet> strainSetOf(geometry::SurfaceMesh boundary) {
   for (Index i = 0; i < boundary.points.cols(); ++i) boundary.points.col(i) = strainOfTensor(boundary.points.col(i));
   geometry::checkClosed(boundary);
   if (geometry::enclosedVolume(boundary) < 0)
     for (auto& triangle : boundary.triangles) std::swap(triangle[0], triangle[1]);
-  const Vector3d middle = geometry::enclosedCentroid(boundary);
+  Vector3d middle = geometry::enclosedCentroid(boundary);
+  if (geometry::kernelDepth(boundary, middle) <= 0) middle = geometry::deepestKernelPoint(boundary).point;
   return std::make_shared<const AdmissibleStrainSet>(std::move(boundary), middle);
 }
 
@@ -204,7 +207,7 @@ double MacroBuilder::heightOf(const interlock::UnitCell& cell) {
 
 interlock::MacroContact MacroBuilder::contact() const {
   const Json& contact = scene_.normalized()["contact"];
-  return {buildBodies(scene_), contact["distance"], contact["self_contact"]};
+  return {buildBodies(scene_), contact["distance"], contact["self_contact"], contact["friction"]};
 }
 
 interlock::MacroLoads MacroBuilder::loads(const interlock::MacroSheet& sheet, std::vector<int>* loaded) const {

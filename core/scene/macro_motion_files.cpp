@@ -25,7 +25,8 @@ void MacroResult::writeMotion(ResultFolder& folder) const {
   CsvWriter csv;
   for (const char* column :
        {"time [s]", "kinetic [J]", "elastic [J]", "potential [J]", "limits [J]", "contact [J]", "total [J]",
-        "stretch_gauge", "bending_gauge", "smallest_gap [m]", "grip_lag [m]", "body_lag [m]", "residual", "iterations"})
+        "stretch_gauge", "bending_gauge", "smallest_gap [m]", "grip_lag [m]", "body_lag [m]", "residual", "iterations",
+        "dissipated [J]", "sliding_share", "friction_lag"})
     csv.add(column);
   csv.endRow();
   for (const MacroStepRecord& step : steps) {
@@ -33,7 +34,8 @@ void MacroResult::writeMotion(ResultFolder& folder) const {
     csv.add(step.time).add(e.kinetic).add(e.elastic).add(e.potential).add(e.limits).add(e.contact).add(e.total());
     csv.add(step.stretchGauge).add(step.bendingGauge);
     std::isfinite(step.smallestGap) ? csv.add(step.smallestGap) : csv.add("");
-    csv.add(step.gripLag).add(step.bodyLag).add(step.residual).add(step.iterations).endRow();
+    csv.add(step.gripLag).add(step.bodyLag).add(step.residual).add(step.iterations);
+    csv.add(e.dissipated).add(step.friction.slidingShare).add(step.friction.lag).endRow();
   }
   folder.writeFile("steps.csv", csv.text());
   std::filesystem::create_directories(folder.path("frames"));
@@ -54,7 +56,9 @@ void readMacroMotion(const std::filesystem::path& directory, MacroResult& result
     MacroStepRecord& step = result.steps.emplace_back();
     step.time = steps.number(i, "time [s]");
     step.energies = {steps.number(i, "kinetic [J]"), steps.number(i, "elastic [J]"), steps.number(i, "potential [J]"),
-                     steps.number(i, "limits [J]"), steps.number(i, "contact [J]")};
+                     steps.number(i, "limits [J]"),  steps.number(i, "contact [J]"), steps.number(i, "dissipated [J]")};
+    step.friction.slidingShare = steps.number(i, "sliding_share");
+    step.friction.lag = steps.number(i, "friction_lag");
     step.stretchGauge = steps.number(i, "stretch_gauge");
     step.bendingGauge = steps.number(i, "bending_gauge");
     step.smallestGap = steps.text(i, "smallest_gap [m]").empty() ? std::numeric_limits<double>::infinity()

@@ -3,6 +3,7 @@
 
 #include "core/base/units.hpp"
 #include "core/scene/input_error_location.hpp"
+#include "core/scene/macro_placement.hpp"
 #include "core/scene/macro_studies.hpp"
 #include "core/scene/macro_study.hpp"
 
@@ -31,9 +32,10 @@ class MacroMotionStudy final : public MacroStudy {
     interlock::MacroLoads loads = builder_.loads(sheet);
     result->clamped = loads.clamped;
     std::vector<interlock::MacroGrip> grips = builder_.grips(sheet);
+    interlock::MacroOptions macroOptions;
+    macroOptions.margin = options_["margin"];
     interlock::MacroMotion motion = locate(place_, [&] {
-      auto simulation =
-          std::make_shared<const interlock::MacroSimulation>(sheet, interlock::MacroOptions{}, builder_.contact());
+      auto simulation = std::make_shared<const interlock::MacroSimulation>(sheet, macroOptions, builder_.contact());
       return interlock::MacroMotion(
           std::move(simulation), std::move(loads), std::move(grips), builder_.start(sheet), options());
     });
@@ -43,7 +45,10 @@ class MacroMotionStudy final : public MacroStudy {
     addFrame(motion, *result);
     const auto count = static_cast<long>(std::llround(options_["duration"].get<double>() / options().timeStep));
     const long every = options_["frame_every"];
-    context.setRange(begun(), 1);
+    const bool withElements = options_["elements"];
+    const double spacing = withElements ? placementSpacing(*cell_) : 0;
+    std::vector<interlock::Vector> way{motion.positions()};
+    context.setRange(begun(), withElements ? begun() + 0.5 * (1 - begun()) : 1);
     TerminationType termination = TerminationType::converged;
     std::string message;
     base::Stopwatch sinceSnapshot;
@@ -56,6 +61,7 @@ class MacroMotionStudy final : public MacroStudy {
         break;
       }
       addStep(motion, *result);
+      if (withElements && farthest(motion.positions(), way.back()) >= spacing) way.push_back(motion.positions());
       if (i % every == 0 || i == count) addFrame(motion, *result);
       context.reportProgress(static_cast<double>(i) / static_cast<double>(count));
       if (observe && sinceSnapshot.seconds() > timeBetweenSnapshots) {
@@ -64,12 +70,24 @@ class MacroMotionStudy final : public MacroStudy {
         sinceSnapshot = base::Stopwatch();
       }
     }
+    if (withElements && termination == TerminationType::converged) {
+      context.setRange(begun() + 0.5 * (1 - begun()), 1);
+      if (way.back() != motion.positions()) way.push_back(motion.positions());
+      const PlacementOutcome outcome = placeElements(way, options_, place_, *result, context);
+      termination = outcome.termination;
+      message = outcome.message;
+    }
     finish(*result, termination, message, watch);
     if (observe) observe(result);
     return result;
   }
 
  private:
+  /// How far the farthest node is from where it was [m].
+  static double farthest(const interlock::Vector& positions, const interlock::Vector& before) {
+    return (positions - before).reshaped(3, before.size() / 3).colwise().norm().maxCoeff();
+  }
+
   interlock::MacroMotionOptions options() const {
     interlock::MacroMotionOptions options;
     options.timeStep = options_["time_step"];
@@ -97,6 +115,7 @@ class MacroMotionStudy final : public MacroStudy {
     record.smallestGap = result.state.smallestGap;
     record.gripLag = motion.gripLag();
     record.bodyLag = motion.bodyLag();
+    record.friction = result.state.friction;
     record.residual = result.state.report.residual();
     record.iterations = static_cast<int>(result.state.report.iterations.size()) - 1;
   }

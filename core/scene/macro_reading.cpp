@@ -4,6 +4,7 @@
 #include "core/scene/csv_table.hpp"
 #include "core/scene/interlock_head.hpp"
 #include "core/scene/json_text.hpp"
+#include "core/scene/macro_placement.hpp"
 
 namespace pliant::scene {
 
@@ -13,6 +14,8 @@ std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem
   const std::string type = parseJson(readTextFile(directory / "summary.json")).value("type", "");
   return readInterlockResult<MacroResult>(directory, [&](MacroResult& result) {
     const Json summary = readInterlockHead(scene, directory, type, result);
+    if (!summary.at("elements").is_null())
+      result.cell = placedCell(scene, result.provenance.options, directory.string(), result.cell);
     auto sheet = std::make_shared<interlock::MacroSheet>();
     interlock::MacroState& state = result.state;
     const CsvTable nodes(directory / "nodes.csv");

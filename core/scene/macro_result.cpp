@@ -53,7 +53,13 @@ Json MacroResult::summary() const {
   }
   json["contact"] = nullptr;
   if (std::isfinite(state.smallestGap))
-    json["contact"] = {{"smallest_gap", state.smallestGap}, {"supported", state.supported}};
+    json["contact"] = {{"smallest_gap", state.smallestGap},
+                       {"supported", state.supported},
+                       {"friction",
+                        {{"contacts", state.friction.contacts},
+                         {"sliding_share", state.friction.slidingShare},
+                         {"lag", state.friction.lag},
+                         {"increments", state.increments}}}};
   if (isMotion()) addMotion(json);
   json["elements"] = placed ? placedSummary(*placed) : Json(nullptr);
   json["deflections"] = columnsOf(deflections);
@@ -82,6 +88,9 @@ Json MacroResult::summary() const {
                    {"mean_distance", "m, between elements and the sheet"},
                    {"smallest_gap", "m, between the sheet and bodies and itself"},
                    {"supported", "N, of the bodies against gravity"},
+                   {"sliding_share", "of the forces of contacts, those of contacts that slide"},
+                   {"lag", "how much friction would change with the last contacts, over the largest there can be"},
+                   {"dissipated", "J, by friction"},
                    {"largest_grip_lag", "m, of nodes behind their grips"},
                    {"energy", "J, of all, at the end"},
                    {"seconds", "s"}};
@@ -100,20 +109,24 @@ Eigen::VectorXd MacroResult::gaugesOf(int material, const Eigen::VectorXd& gauge
 }
 
 void MacroResult::addMotion(Json& json) const {
-  double smallestGap = std::numeric_limits<double>::infinity(), stretch = 0, bending = 0, lag = 0, residual = 0;
+  double smallestGap = std::numeric_limits<double>::infinity(), stretch = 0, bending = 0, lag = 0, residual = 0,
+         frictionLag = 0;
   for (const MacroStepRecord& step : steps) {
     smallestGap = std::min(smallestGap, step.smallestGap);
     stretch = std::max(stretch, step.stretchGauge);
     bending = std::max(bending, step.bendingGauge);
     lag = std::max(lag, step.gripLag);
     residual = std::max(residual, step.residual);
+    frictionLag = std::max(frictionLag, step.friction.lag);
   }
   json["motion"] = {{"steps", steps.size()},
                     {"frames", frames.size()},
                     {"largest_stretch_gauge", stretch},
                     {"largest_bending_gauge", bending},
                     {"largest_grip_lag", lag},
-                    {"largest_residual", residual}};
+                    {"largest_residual", residual},
+                    {"largest_friction_lag", frictionLag},
+                    {"dissipated", steps.empty() ? 0 : steps.back().energies.dissipated}};
   json["motion"]["smallest_gap"] = std::isfinite(smallestGap) ? Json(smallestGap) : Json(nullptr);
   json["motion"]["end_time"] = steps.empty() ? 0 : steps.back().time;
   json["motion"]["energy"] = steps.empty() ? 0 : steps.back().energies.total();

@@ -45,6 +45,7 @@ struct MacroStepRecord {
   double gripLag = 0, bodyLag = 0;            ///< [m]
   double residual = 0;
   int iterations = 0;
+  interlock::SheetFriction friction;  ///< read from files without its contacts
 };
 
 /// A sheet at rest under its loads, "macro_equilibrium", or in motion, "macro_motion": then `state` is its last.

@@ -153,6 +153,18 @@ std::vector<ParameterSpec> macroStudySpecs() {
       name(), optional(reference("cell", "The material; may be left out if there is one.", "interlocking_cells"))};
   for (std::vector<ParameterSpec> group : {outlineKeys(), materialKeys(), {regions()}, loadKeys()})
     keys.insert(keys.end(), group.begin(), group.end());
+  keys.push_back(withDefault(
+      within(number("margin", "",
+                    "How far inside their limits strains stay, of the way from the middle of the set to its boundary: "
+                    "gauges are below 1 - margin. It leaves room between elements.",
+                    dimensions::none),
+             0, 0.9),
+      0));
+  keys.push_back(withDefault(
+      boolean("elements",
+              "Whether the material's elements are placed on the sheet where it ends, following its way from rest so "
+              "that none meets another and every link holds. Regions may have other elements on the same lattice."),
+      false));
   ParameterSpec motion = motionStudy(keys);
   keys.push_back(withDefault(
       choice("limits", "What keeps the limits: a \"barrier\" that is never violated, or the \"penalty\" of the thesis.",
@@ -164,11 +176,6 @@ std::vector<ParameterSpec> macroStudySpecs() {
                                   "area [J/m²].",
                                   dimensions::none)),
                   1e7));
-  keys.push_back(withDefault(
-      boolean("elements",
-              "Whether the material's elements are placed on the sheet, following its way from rest so that none meets "
-              "another and every link holds."),
-      false));
   keys.push_back(withDefault(
       boolean("native", "Whether the patch of elements is computed as well, under the same loads, to compare."),
       false));

@@ -5,6 +5,7 @@
 
 #include "core/interlock/patch_equilibrium.hpp"
 #include "core/scene/input_error_location.hpp"
+#include "core/scene/macro_placement.hpp"
 #include "core/scene/macro_study.hpp"
 
 namespace pliant::scene {
@@ -16,9 +17,6 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Of the shortest translation of the lattice: steps of the sheet's way that elements follow.
-constexpr double pathSpacing = 0.5;
-
 class MacroEquilibriumStudy final : public MacroStudy {
  public:
   using MacroStudy::MacroStudy;
@@ -26,8 +24,6 @@ class MacroEquilibriumStudy final : public MacroStudy {
   std::shared_ptr<const Result> run(base::ExecutionContext& context, const ResultObserver& observe) const override {
     const base::Stopwatch watch;
     checkNative();
-    if (options_["elements"] && !options_["regions"].empty())
-      throw base::InputError(place_ + "/elements", "Elements are placed in sheets of one material alone.");
     interlock::MacroSheet sheet;
     const std::shared_ptr<MacroResult> result = begin(sheet, context);
     if (context.cancelRequested()) {
@@ -38,9 +34,10 @@ class MacroEquilibriumStudy final : public MacroStudy {
     interlock::MacroOptions macroOptions;
     macroOptions.limits = options_["limits"] == "barrier" ? mechanics::StrainLimitFunction::Kind::barrier
                                                           : mechanics::StrainLimitFunction::Kind::penalty;
+    macroOptions.margin = options_["margin"];
     macroOptions.penalty = options_["penalty"];
     if (options_["limits"] == "penalty") macroOptions.maximumIterations = 5000;
-    if (options_["elements"]) macroOptions.pathSpacing = pathSpacing * cell_->lattice.colwise().norm().minCoeff();
+    if (options_["elements"]) macroOptions.pathSpacing = placementSpacing(*cell_);
     const interlock::MacroSimulation simulation =
         locate(place_, [&] { return interlock::MacroSimulation(sheet, macroOptions, builder_.contact()); });
     const interlock::MacroLoads loads = builder_.loads(sheet, &result->loaded);
@@ -61,13 +58,13 @@ class MacroEquilibriumStudy final : public MacroStudy {
     std::string message = result->state.report.message;
     if (options_["elements"] && termination == TerminationType::converged) {
       context.setRange(options_["native"] ? 0.9 : settled, 1);
-      placeElements(start, *result, context);
-      termination = result->placed->detail.termination;
-      message = result->placed->detail.message;
-      if (termination == TerminationType::converged && !result->placed->check.holds()) {
-        termination = TerminationType::failed;
-        message = "Placed elements overlap, or are linked otherwise than at rest.";
-      }
+      std::vector<interlock::Vector> way = std::move(result->state.path);
+      result->state.path.clear();
+      if (way.empty()) way.push_back(start);
+      way.push_back(result->state.positions);
+      const PlacementOutcome outcome = placeElements(way, options_, place_, *result, context);
+      termination = outcome.termination;
+      message = outcome.message;
     }
     finish(*result, termination, message, watch);
     context.reportProgress(1);
@@ -83,26 +80,6 @@ class MacroEquilibriumStudy final : public MacroStudy {
       throw base::InputError(place_, "A native patch is a disk, a hexagon or a rectangle along the material's axes.");
     if (!builder_.contact().bodies.empty() || options_["placement"] != Json(macroRestPlacement()))
       throw base::InputError(place_, "A native patch meets no bodies, and starts where its sheet rests.");
-  }
-
-  /// Along the way that the equilibrium took.
-  void placeElements(const interlock::Vector& start, MacroResult& result, base::ExecutionContext& context) const {
-    const geometry::SurfaceMesh& mesh = result.sheet->mesh;
-    const interlock::SheetDetailer detailer = locate(place_ + "/elements", [&] {
-      return interlock::SheetDetailer(*cell_, mesh, options_["angle"], planeOf(options_["centre"]));
-    });
-    std::vector<Eigen::Matrix3Xd> path{start.reshaped(3, mesh.points.cols())};
-    for (std::size_t i = 1; i < result.state.path.size(); ++i)
-      path.emplace_back(result.state.path[i].reshaped(3, mesh.points.cols()));
-    path.emplace_back(result.state.positions.reshaped(3, mesh.points.cols()));
-    const double reach = cell_->smallestRadius();
-    result.placed.emplace();
-    base::ExecutionContext silent;
-    const interlock::SheetDetail rest = detailer.follow({path.front()}, silent);
-    result.placed->before = checkDetail(*cell_, rest.elements, rest.state, reach);
-    result.placed->detail = detailer.follow(path, context);
-    result.placed->check = checkDetail(*cell_, result.placed->detail.elements, result.placed->detail.state, reach);
-    result.state.path.clear();
   }
 
   static Json macroRestPlacement() {

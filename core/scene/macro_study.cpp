@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/scene/json_text.hpp"
+#include "core/scene/macro_placement.hpp"
 
 namespace pliant::scene {
 
@@ -26,6 +27,7 @@ MacroStudy::MacroStudy(const Scene& scene, const Json& options)
 
 std::shared_ptr<MacroResult> MacroStudy::begin(interlock::MacroSheet& sheet, base::ExecutionContext& context) const {
   auto result = std::make_shared<MacroResult>();
+  result->cell = options_["elements"] ? placedCell(scene_, options_, place_, cell_) : cell_;
   sheet = builder_.sheet(*cell_, begun(), context);
   result->sheet = std::make_shared<const interlock::MacroSheet>(sheet);
   result->bodies = builder_.contact().bodies;

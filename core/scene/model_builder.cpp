@@ -31,7 +31,9 @@ Vector toVector(const Json& values) {
 
 mechanics::PeriodicSignal toSignal(const Json& harmonics) {
   mechanics::PeriodicSignal signal;
-  for (const Json& term : harmonics) signal.terms.push_back({term["order"], term["amplitude"], term["phase"]});
+  for (const Json& term : harmonics)
+    signal.terms.push_back(
+        {term["order"], term["amplitude"], term["phase"], term.value("of", "") == "second_frequency"});
   return signal;
 }
 

@@ -33,11 +33,12 @@ geometry::MeshAnimation periodAnimation(const harmonic::HarmonicBalanceProblem& 
                                         int steps, double seconds) {
   if (steps < 1 || !(seconds > 0 && std::isfinite(seconds)))
     throw base::InputError("", "An animation needs at least one step, and a length above 0.");
+  const bool repeats = !problem.basis().hasTwoFrequencies();
   geometry::MeshAnimation animation;
   for (int i = 0; i <= steps; ++i) {
     const double part = static_cast<double>(i) / steps;
     geometry::SurfaceMesh mesh =
-        surfaceAt(problem.model(), problem.configurationAt(z, i == steps ? 0 : 2 * std::numbers::pi * part));
+        surfaceAt(problem.model(), problem.configurationAt(z, i == steps && repeats ? 0 : 2 * std::numbers::pi * part));
     if (mesh.triangles.empty()) throw base::InputError("", "The scene has no triangles to animate.");
     animation.triangles = std::move(mesh.triangles);
     animation.frames.push_back(std::move(mesh.points));

@@ -61,6 +61,10 @@ void checkRange(const ParameterSpec& spec, double value, const Json& found, cons
   if (low || !(value <= spec.maximum)) expected(pointer, "a value " + rangeText(spec), found);
 }
 
+void checkFinite(double value, const std::string& pointer) {
+  if (!std::isfinite(value)) throw InputError(pointer, "Expected a finite number.");
+}
+
 class Normalizer {
  public:
   explicit Normalizer(int dimension) : dimension_(dimension) {}
@@ -101,7 +105,7 @@ class Normalizer {
       const std::string unit = base::siUnit(spec.dimension);
       expected(pointer, unit.empty() ? "a number" : "a number or a text with a unit such as \"1 " + unit + "\"", found);
     }
-    if (!std::isfinite(result)) throw InputError(pointer, "Expected a finite number.");
+    checkFinite(result, pointer);
     checkRange(spec, result, found, pointer);
     return result;
   }
@@ -269,6 +273,11 @@ int dimensionOf(const Json& scene) {
 }
 
 }  // namespace
+
+void checkNumber(const ParameterSpec& spec, double value, const std::string& pointer) {
+  checkFinite(value, pointer);
+  checkRange(spec, value, value, pointer);
+}
 
 Json normalizeScene(const Json& scene) {
   const ParameterSpec& spec = sceneSpec();

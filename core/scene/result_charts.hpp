@@ -14,7 +14,8 @@ struct ResultSeries {
   std::string name;  ///< in the legend; empty: it belongs to the series before it
   Mark mark = Mark::line;
   std::vector<double> x, y;
-  int group = 0;  ///< series of one group have one colour
+  int group = 0;               ///< series of one group have one colour
+  std::vector<int> designs{};  ///< which one each point is of; empty if points are of none
 };
 
 /// What results on disk show when they are plotted; the units stand in the labels.

@@ -80,6 +80,22 @@ Scene Scene::withValue(const std::string& pointer, const Json& value) const {
   }
 }
 
+Scene Scene::withNumbers(const std::vector<std::string>& pointers, const std::vector<double>& values) const {
+  try {
+    Json edited = *normalized_;
+    for (std::size_t i = 0; i < pointers.size(); ++i) {
+      checkNumber(*specAt(*this, pointers[i]), values[i], pointers[i]);
+      edited.at(Json::json_pointer(pointers[i])) = values[i];
+    }
+    checkScene(edited);
+    Scene scene = *this;
+    scene.json_ = scene.normalized_ = std::make_shared<const Json>(std::move(edited));
+    return scene;
+  } catch (const InputError& error) {
+    throw error.inside(name_);
+  }
+}
+
 void Scene::save(const std::filesystem::path& file) const { writeTextFile(file, formatJson(*json_)); }
 
 const ParameterSpec* specAt(const Scene& scene, const std::string& pointer) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/parameter_spec.hpp"
 
@@ -31,6 +32,9 @@ class Scene {
 
   /// A copy with the value at `pointer` replaced (validated; throws base::InputError and changes nothing).
   Scene withValue(const std::string& pointer, const Json& value) const;
+  /// A copy with other numbers [SI] in places of `normalized()` that hold numbers, checked like any; its `json()` is
+  /// normalised as well. Costs a copy of the values, so it serves where many scenes differ in numbers alone.
+  Scene withNumbers(const std::vector<std::string>& pointers, const std::vector<double>& values) const;
 
   /// Writes `json()` atomically (a temporary file that is renamed).
   void save(const std::filesystem::path& file) const;

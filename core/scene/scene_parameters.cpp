@@ -53,18 +53,6 @@ mechanics::FamilyParameter declare(const Scene& scene, const Json& entry, const 
   return parameter;
 }
 
-/// The scene with several numbers changed, checked once.
-Scene withValues(const Scene& scene, const std::vector<std::string>& pointers, const std::vector<double>& values) {
-  std::vector<std::size_t> changes;
-  for (std::size_t i = 0; i < pointers.size(); ++i)
-    if (scene.normalized()[Json::json_pointer(pointers[i])].get<double>() != values[i]) changes.push_back(i);
-  if (changes.empty()) return scene;
-  if (changes.size() == 1) return scene.withValue(pointers[changes[0]], values[changes[0]]);
-  Json edited = scene.json();
-  for (const std::size_t i : changes) edited[Json::json_pointer(pointers[i])] = values[i];
-  return Scene::parse(edited.dump(), scene.directory(), scene.name());
-}
-
 }  // namespace
 
 void addSceneParameters(const Scene& scene, mechanics::Model& model, mechanics::Model (*build)(const Scene&)) {
@@ -86,7 +74,7 @@ void addSceneParameters(const Scene& scene, mechanics::Model& model, mechanics::
   }
   const auto family =
       std::make_shared<const mechanics::ModelFamily>([scene, pointers, build](const std::vector<double>& values) {
-        mechanics::Model member = build(withValues(scene, pointers, values));
+        mechanics::Model member = build(scene.withNumbers(pointers, values));
         member.familyValues = values;
         return member;
       });

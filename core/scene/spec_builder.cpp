@@ -97,6 +97,10 @@ ParameterSpec signal(std::string description, Dimension amplitude) {
   return list("harmonics", std::move(description),
               object("harmonic", "One term: amplitude cos(order τ + phase), τ = ω t.",
                      {withDefault(integer("order", "k", "Multiple of the driving frequency.", 0, 200), 1),
+                      optional(choice("of",
+                                      "Which driving frequency of the study it is a multiple of; \"frequency\" if "
+                                      "left out.",
+                                      {"frequency", "second_frequency"})),
                       number("amplitude", "a", "Amplitude.", amplitude),
                       withDefault(number("phase", "φ", "Phase at t = 0.", dimensions::angle), 0)}),
               1, 100);

@@ -12,6 +12,7 @@
 #include "core/scene/linear_studies.hpp"
 #include "core/scene/macro_studies.hpp"
 #include "core/scene/resumable_study.hpp"
+#include "core/scene/second_frequency.hpp"
 #include "core/scene/sharded_study.hpp"
 #include "core/scene/study_input.hpp"
 #include "core/scene/study_specs.hpp"
@@ -102,6 +103,7 @@ std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<c
       const std::string own = placeOfStudy(scene, options) + "/frequency";
       model = mechanics::withoutDriveFrequencies(
           std::move(model), [&](const std::string& pointer) { return scene.name() + ": " + pointer == own; });
+      checkSecondFrequency(scene, options);
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
     }
   std::string known;

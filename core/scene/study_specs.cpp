@@ -19,6 +19,21 @@ ParameterSpec frequency(std::string key, std::string symbol, std::string descrip
   return positive(number(std::move(key), std::move(symbol), std::move(description), dimensions::angularFrequency));
 }
 
+ParameterSpec secondFrequency() {
+  return optional(frequency("second_frequency", "ω_2",
+                            "A second driving frequency that has no period in common with the first: the motion never "
+                            "repeats. \"harmonics\" are then the largest |k_1| + |k_2| of its frequencies "
+                            "k_1 ω + k_2 ω_2, and \"samples\" those of a period of each frequency, so N² in all: "
+                            "4 H + 1 are enough."));
+}
+
+ParameterSpec frequencyRatio() {
+  return optional(positive(number("frequency_ratio", "r",
+                                  "There is a second driving frequency, r times the first all along the curve, with "
+                                  "no period in common; \"harmonics\" and \"samples\" are as in periodic_motion.",
+                                  dimensions::none)));
+}
+
 ParameterSpec harmonics() { return withDefault(integer("harmonics", "H", "Harmonics of the motion.", 1, 200), 5); }
 
 ParameterSpec samples() {
@@ -102,7 +117,7 @@ const std::vector<ParameterSpec>& studySpecs() {
         harmonicStudy(
             "periodic_motion",
             "The periodic motion at one driving frequency, and how it depends on each design parameter.",
-            {frequency("frequency", "ω", "Driving frequency.")},
+            {frequency("frequency", "ω", "Driving frequency."), secondFrequency()},
             drivenKeys(
                 {optional(positive(
                      number("harmonics_tolerance", "",
@@ -118,7 +133,7 @@ const std::vector<ParameterSpec>& studySpecs() {
                  withDefault(integer("maximum_harmonics", "", "Where raising the harmonics ends.", 1, 200), 25)})),
         harmonicStudy(
             "frequency_response", "The curve of all periodic motions between two driving frequencies, through folds.",
-            {from(), to()},
+            {from(), to(), frequencyRatio()},
             drivenKeys(
                 {step("initial_step", "First step along the curve, in the scaled arc length; chosen if left out."),
                  step("minimum_step", "Smallest step before giving up; chosen if left out."),

@@ -63,7 +63,12 @@ void EnergyMinimizer::setContact(std::shared_ptr<mechanics::ContactBarrier> cont
 void EnergyMinimizer::analyse() {
   contactPairs_.clear();
   if (contact_) {
-    for (const auto& [a, b] : contact_->coupledNodes(foresight * contact_->options().range)) {
+    std::vector<std::array<int, 2>> couples = contact_->coupledNodes(foresight * contact_->options().range);
+    if (friction_) {
+      const std::vector<std::array<int, 2>> rubbing = friction_->coupledNodes();
+      couples.insert(couples.end(), rubbing.begin(), rubbing.end());
+    }
+    for (const auto& [a, b] : couples) {
       const auto [q, p] = std::minmax(vertex_[a], vertex_[b]);
       if (q >= 0) contactPairs_.push_back({p, q});
     }
@@ -117,8 +122,10 @@ double EnergyMinimizer::value(const Vector& x, const Surroundings& surroundings)
   if (surroundings.inertia.size() > 0)
     sum += 0.5 * (surroundings.inertia.array() * (x - surroundings.target).array().square()).sum();
   if (contact_) {
-    contact_->update(withBodies(x));
+    const Eigen::Matrix3Xd all = withBodies(x);
+    contact_->update(all);
     sum += contact_->value();
+    if (friction_) sum += friction_->value(all);
   }
   return sum;
 }
@@ -133,10 +140,12 @@ Vector EnergyMinimizer::gradient(const Vector& x, const Surroundings& surroundin
   }
   if (surroundings.inertia.size() > 0) sum += surroundings.inertia.cwiseProduct(x - surroundings.target);
   if (contact_) {
-    Eigen::Matrix3Xd own = Eigen::Matrix3Xd::Zero(3, x.size() / 3 + bodyPoints_.cols());
-    contact_->update(withBodies(x));
+    const Eigen::Matrix3Xd all = withBodies(x);
+    Eigen::Matrix3Xd own = Eigen::Matrix3Xd::Zero(3, all.cols());
+    contact_->update(all);
     contact_->addGradient(own);
     if (largest) *largest = std::max(*largest, own.cwiseAbs().maxCoeff());
+    if (friction_) friction_->addGradient(all, own);
     sum += own.leftCols(x.size() / 3).reshaped();
   }
   for (std::size_t node = 0; node < held_.size(); ++node)
@@ -149,8 +158,10 @@ bool EnergyMinimizer::factorizeAt(const Vector& x, const Surroundings& surroundi
   for (std::size_t t = 0; t < terms_.size(); ++t) terms_[t].energy->hessianEntries(x, entries_[t], kind);
   if (contact_) {
     blocks_.clear();
-    contact_->update(withBodies(x));
+    const Eigen::Matrix3Xd all = withBodies(x);
+    contact_->update(all);
     contact_->addHessian(blocks_, kind == HessianKind::convex ? 1 : 0);
+    if (friction_) friction_->addHessian(all, blocks_);
     if (!hasRoomForContacts()) analyse();
   }
   return factorize(surroundings, shift);

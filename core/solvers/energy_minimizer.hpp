@@ -7,6 +7,7 @@
 #include "core/base/solver_report.hpp"
 #include "core/math/block_cholesky.hpp"
 #include "core/mechanics/contact_barrier.hpp"
+#include "core/mechanics/contact_friction.hpp"
 #include "core/mechanics/elastic_assembler.hpp"
 
 namespace pliant::solvers {
@@ -39,6 +40,8 @@ class EnergyMinimizer {
 
   /// The model's nodes are those of the barrier that can be deformed; `bodyPoints` (3 x others) [m] follow. Null: none.
   void setContact(std::shared_ptr<mechanics::ContactBarrier> contact, Eigen::Matrix3Xd bodyPoints);
+  /// Of the same contact, as one more term; null: none.
+  void setFriction(std::shared_ptr<const mechanics::ContactFriction> friction) { friction_ = std::move(friction); }
 
   struct Surroundings {
     mechanics::Vector force;            ///< on all coordinates [N]
@@ -74,8 +77,9 @@ class EnergyMinimizer {
   std::vector<std::array<int, 2>> pairs_;         ///< of vertices that terms couple
   std::vector<std::array<int, 2>> contactPairs_;  ///< of vertices that contacts may couple, sorted
   std::shared_ptr<mechanics::ContactBarrier> contact_;
+  std::shared_ptr<const mechanics::ContactFriction> friction_;
   Eigen::Matrix3Xd bodyPoints_;
-  std::vector<mechanics::ContactBlock> blocks_;  ///< of the contacts, at the x last assembled
+  std::vector<mechanics::ContactBlock> blocks_;  ///< of contacts and friction, at the x last assembled
   std::optional<math::BlockCholesky> cholesky_;
   std::vector<std::vector<Eigen::Index>> slots_;        ///< per term and entry of its assembler; -1: held
   std::vector<std::array<Eigen::Index, 3>> diagonals_;  ///< of each free node

@@ -11,6 +11,7 @@
 
 #include "tests/screenshots/screenshot.hpp"
 #include "tests/ui/render/swinging_fork.hpp"
+#include "ui/panels/compound_row.hpp"
 #include "ui/panels/parameter_panel.hpp"
 #include "ui/panels/parameter_row.hpp"
 #include "ui/panels/parameter_slider.hpp"
@@ -55,7 +56,7 @@ QImage drawViewport(const render::SwingingFork& fork, const std::string& view) {
   return QTest::qWaitForWindowExposed(&widget) ? widget.grabImage() : QImage();
 }
 
-constexpr int patience = 120'000;  ///< milliseconds; nothing here is timed
+constexpr int patience = 600'000;  ///< milliseconds; nothing here is timed
 
 /// A resonance curve in closed form, leaning over, with a shown motion and a prediction.
 std::unique_ptr<plots::ResponsePlot> makePlot(bool predicted) {
@@ -79,7 +80,14 @@ std::unique_ptr<plots::ResponsePlot> makePlot(bool predicted) {
   plot->setCurves(
       {curve, other}, 0, predicted ? document::StudyStatus::stale : document::StudyStatus::solved, predicted, {});
   plot->setShownMotion(plots::ResponsePlace{curve.omega[85], curve.amplitude[85]});
-  if (predicted) plot->setPrediction(plots::ResponsePlace{curve.omega[85], 1.3 * curve.amplitude[85]});
+  if (predicted) {
+    plot->setPrediction(plots::ResponsePlace{curve.omega[85], 1.3 * curve.amplitude[85]});
+    plots::PredictedResponse foretold{curve, {}};
+    for (double& omega : foretold.curve.omega) omega -= 1;
+    for (double& amplitude : foretold.curve.amplitude) amplitude *= 1.2;
+    foretold.peaks = {{foretold.curve.omega[100], foretold.curve.amplitude[100]}};
+    plot->setPredictedCurve(std::move(foretold));
+  }
   plot->show();
   return plot;
 }
@@ -95,6 +103,13 @@ std::unique_ptr<shell::MainWindow> makeSolvedWindow(const char* scene, QSize siz
       [&] { return !window->document().isEmpty() && window->session().shown() && !window->session().isBusy(); },
       patience);
   if (!solved || !QTest::qWaitFor([&] { return !window->session().effects().empty(); }, patience)) return nullptr;
+  // Everything that is found behind the motion.
+  const jobs::CurvePredictor& curve = window->response().predictor();
+  if (!QTest::qWaitFor([&] { return !curve.model() || curve.isComplete(); }, patience)) return nullptr;
+  const auto& parameters = window->parameters();
+  if (parameters.compound()->isVisible() && parameters.compound()->slider()->isEnabled() &&
+      !QTest::qWaitFor([&] { return parameters.trust().reach().has_value(); }, patience))
+    return nullptr;
   window->viewport().pause();
   window->viewport().setTau(tau);
   return window;
@@ -201,7 +216,7 @@ void TestScreenshots::theWholeWindow() {
 /// docs/window.png, made anew with PLIANT_RECORD_README=1.
 void TestScreenshots::thePictureOfTheReadme() {
   if (!qEnvironmentVariableIntValue("PLIANT_RECORD_README")) QSKIP("the picture of the README is not asked for");
-  const auto window = makeSolvedWindow("fork.json", {1440, 900}, 3.6);
+  const auto window = makeSolvedWindow("dragon_wing.json", {1440, 900}, 3.6);
   QVERIFY(window);
   dragFirstMass(*window, 10);
   QVERIFY(window->session().prediction().has_value());

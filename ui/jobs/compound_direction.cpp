@@ -69,6 +69,14 @@ std::map<std::string, double> CompoundDirection::valuesAt(double share) const {
   return values;
 }
 
+Vector CompoundDirection::way(double sign, Eigen::Index count) const {
+  Vector way = Vector::Zero(count);
+  const Vector& steps = sign >= 0 ? towards_ : away_;
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    way[parameters_[i].index] = steps[static_cast<Eigen::Index>(i)] * (parameters_[i].maximum - parameters_[i].minimum);
+  return way;
+}
+
 std::map<std::string, double> CompoundDirection::steps() const {
   std::map<std::string, double> steps;
   for (std::size_t i = 0; i < parameters_.size(); ++i)

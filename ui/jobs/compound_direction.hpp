@@ -41,6 +41,9 @@ class CompoundDirection {
   bool isEmpty() const { return isEmpty_; }
   /// By pointer, within the bounds; `share` in [-1, 1] of the way towards the goal or away from it.
   std::map<std::string, double> valuesAt(double share) const;
+  /// The whole way towards the goal (`sign` 1) or away from it (-1), bounds aside, by index in `Model::parameters`, of
+  /// which there are `count`.
+  harmonic::Vector way(double sign, Eigen::Index count) const;
   /// Parts of each parameter's range that a step towards the goal takes, of [-1, 1], by pointer.
   std::map<std::string, double> steps() const;
 

@@ -8,6 +8,7 @@
 #include "core/harmonic/amplitude.hpp"
 #include "core/mechanics/drive_frequency.hpp"
 #include "core/mechanics/joint_parameter.hpp"
+#include "ui/jobs/comparable_scenes.hpp"
 #include "ui/jobs/node_correspondence.hpp"
 
 namespace pliant::jobs {
@@ -27,21 +28,6 @@ std::shared_ptr<const scene::HarmonicResult> harmonicResult(const document::Stud
   return study ? std::dynamic_pointer_cast<const scene::HarmonicResult>(study->result) : nullptr;
 }
 
-/// Whether both scenes pose the same problem but for the values at `pointers`.
-bool sameBut(const scene::Scene& a, const scene::Scene& b, const std::vector<std::string>& pointers) {
-  scene::Json changed = a.normalized();
-  for (const std::string& pointer : pointers) {
-    const scene::Json::json_pointer path(pointer);
-    if (!changed.contains(path) || !b.normalized().contains(path)) return false;
-    changed[path] = b.normalized().at(path);
-    // A bound that the file leaves out follows the mass.
-    const scene::Json::json_pointer bound(pointer.substr(0, pointer.rfind('/')) + "/maximum");
-    if (!a.json().contains(bound) && !b.json().contains(bound) && b.normalized().contains(bound))
-      changed[bound] = b.normalized().at(bound);
-  }
-  return document::sameModel(changed, b.normalized());
-}
-
 /// Whether the nodes of a motion are those of the document's model: at the same places, or at others that parameters
 /// alone have moved.
 bool fits(const ShownMotion& shown, const document::Document& document) {
@@ -49,14 +35,8 @@ bool fits(const ShownMotion& shown, const document::Document& document) {
   if (sameNodes(solved, present)) return true;
   if (solved.dimension != present.dimension || solved.restPositions.size() != present.restPositions.size())
     return false;
-  std::vector<std::string> pointers;
-  for (const auto& parameter : solved.parameters) pointers.push_back(parameter->pointer());
-  return sameBut(shown.scene, document.scene(), pointers);
+  return areComparable(shown.scene, document.scene(), solved);
 }
-
-}  // namespace
-
-namespace {
 
 /// Whether a parameter at this pointer is one of the shown motion's own.
 bool hasParameterAt(const ShownMotion& shown, const std::string& pointer) {
@@ -321,28 +301,24 @@ void MotionSession::refreshStaleness() {
   stale_ = shown_ && !document::sameModel(shown_->scene, document_.scene());
   if (shown_ && wantedFrequency(*shown_, document_) != mechanics::driveFrequency(shown_->problem->model()))
     stale_ = true;
-  if (stale_) {
-    std::vector<std::string> pointers;
-    for (const auto& parameter : shown_->problem->model().parameters) pointers.push_back(parameter->pointer());
-    comparable_ = sameBut(shown_->scene, document_.scene(), pointers);
-  }
+  if (stale_) comparable_ = areComparable(shown_->scene, document_.scene(), shown_->problem->model());
   refreshPrediction();
   if (comparable_ != wasComparable) refreshEffects();
 }
 
-std::optional<Vector> MotionSession::parameterChange() const {
-  const auto& parameters = shown_->problem->model().parameters;
-  Vector change(static_cast<Eigen::Index>(parameters.size()));
+std::optional<Vector> MotionSession::changeFrom(const mechanics::Model& solved) const {
+  Vector change(static_cast<Eigen::Index>(solved.parameters.size()));
   for (Eigen::Index p = 0; p < change.size(); ++p) {
-    const std::string pointer = parameters[p]->pointer();
-    const double solved = parameters[p]->value(shown_->problem->model());
-    double value = solved;
+    const mechanics::DesignParameter& parameter = *solved.parameters[static_cast<std::size_t>(p)];
+    const std::string pointer = parameter.pointer();
+    const double before = parameter.value(solved);
+    double value = before;
     if (const auto previewed = preview_.find(pointer); previewed != preview_.end()) {
       value = previewed->second;
     } else if (const auto json = document_.valueAt(pointer); json.is_number()) {
       value = json.get<double>();
     }
-    change[p] = value - solved;
+    change[p] = value - before;
   }
   if (change.isZero(0)) return std::nullopt;
   return change;
@@ -351,7 +327,7 @@ std::optional<Vector> MotionSession::parameterChange() const {
 void MotionSession::refreshPrediction() {
   prediction_.reset();
   if (shown_ && comparable_ && shown_->sensitivity && shown_->sensitivity->regular())
-    if (const auto change = parameterChange()) prediction_ = shown_->sensitivity->predict(*change);
+    if (const auto change = changeFrom(shown_->problem->model())) prediction_ = shown_->sensitivity->predict(*change);
   Q_EMIT predictionChanged();
 }
 

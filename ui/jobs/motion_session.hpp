@@ -91,6 +91,8 @@ class MotionSession final : public QObject {
   void previewAll(std::map<std::string, double> values);
   void endPreview();
   bool isPreviewing() const { return !preview_.empty(); }
+  /// How far the parameters as they are set now, dragged ones included, are from those of `solved`; none: nowhere.
+  std::optional<harmonic::Vector> changeFrom(const mechanics::Model& solved) const;
 
   void selectNode(int node);
   void setMeasure(AmplitudeMeasure measure);
@@ -117,7 +119,6 @@ class MotionSession final : public QObject {
   void refreshStaleness();
   void refreshPrediction();
   void refreshEffects();
-  std::optional<harmonic::Vector> parameterChange() const;
 
   document::Document& document_;
   JobRunner& quick_;

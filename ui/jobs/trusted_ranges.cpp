@@ -1,5 +1,7 @@
 #include "ui/jobs/trusted_ranges.hpp"
 
+#include <utility>
+
 #include "core/base/error.hpp"
 #include "core/mechanics/design_parameter.hpp"
 
@@ -8,6 +10,17 @@ namespace pliant::jobs {
 namespace {
 
 const QString trustTopic = QStringLiteral("trust");
+const QString wayTopic = QStringLiteral("trust of a way");
+
+/// How often a way may be gone; 0 if it is none, or its parameters leave no room for a difference.
+double reachOf(const harmonic::PredictionError& error, const harmonic::Vector& way) {
+  if (way.size() == 0 || way.isZero(0)) return 0;
+  try {
+    return error.trustedReach(way, TrustedRanges::share);
+  } catch (const base::InputError&) {
+    return 0;
+  }
+}
 
 }  // namespace
 
@@ -30,8 +43,11 @@ void TrustedRanges::follow() {
   if (sensitivity == of_) return;
   of_ = sensitivity;
   runner_.abandonTopic(trustTopic);
-  const bool had = !ranges_.empty();
+  runner_.abandonTopic(wayTopic);
+  const bool had = !ranges_.empty() || reach_;
   ranges_.clear();
+  reach_.reset();
+  error_.reset();
   if (had) Q_EMIT changed();
   if (!sensitivity || !sensitivity->regular()) return;
   Job job;
@@ -40,19 +56,50 @@ void TrustedRanges::follow() {
                  base::ExecutionContext& context, const Publish&) -> Delivery {
     std::map<std::string, ParameterRange> ranges;
     const harmonic::HarmonicBalanceProblem own(*problem);
-    const harmonic::PredictionError error(own, motion, *sensitivity);
+    const auto error = std::make_shared<const harmonic::PredictionError>(own, motion, *sensitivity);
     const auto& parameters = own.model().parameters;
-    for (std::size_t i = 0; error.regular() && i < parameters.size(); ++i) {
+    for (std::size_t i = 0; error->regular() && i < parameters.size(); ++i) {
       if (context.cancelRequested()) return {};
       try {
-        ranges[parameters[i]->pointer()] = error.trustedRange(static_cast<int>(i), share);
+        ranges[parameters[i]->pointer()] = error->trustedRange(static_cast<int>(i), share);
       } catch (const base::InputError&) {
         continue;  // its bounds leave no room for a difference
       }
     }
-    return [this, sensitivity, ranges = std::move(ranges)] {
+    return [this, sensitivity, error, ranges = std::move(ranges)] {
       if (of_ != sensitivity) return;
       ranges_ = ranges;
+      if (error->regular()) error_ = error;
+      Q_EMIT changed();
+      findReach();
+    };
+  };
+  runner_.submit(std::move(job));
+}
+
+void TrustedRanges::setWays(harmonic::Vector towards, harmonic::Vector away) {
+  const auto same = [](const harmonic::Vector& a, const harmonic::Vector& b) {
+    return a.size() == b.size() && (a - b).isZero(0);
+  };
+  if (same(towards_, towards) && same(away_, away)) return;
+  towards_ = std::move(towards);
+  away_ = std::move(away);
+  if (std::exchange(reach_, std::nullopt)) Q_EMIT changed();
+  findReach();
+}
+
+void TrustedRanges::findReach() {
+  runner_.abandonTopic(wayTopic);
+  if (!error_ || towards_.size() == 0) return;
+  Job job;
+  job.topic = wayTopic;
+  job.work = [this, error = error_, towards = towards_, away = away_](
+                 base::ExecutionContext& context, const Publish&) -> Delivery {
+    if (context.cancelRequested()) return {};
+    const Reach reach{reachOf(*error, towards), reachOf(*error, away)};
+    return [this, error, reach] {
+      if (error_ != error) return;
+      reach_ = reach;
       Q_EMIT changed();
     };
   };

@@ -1,12 +1,16 @@
 #include "ui/panels/chart_panel.hpp"
 
 #include <QPointer>
+#include <QPushButton>
 #include <QSplitter>
 #include <QTemporaryDir>
 #include <algorithm>
 
 #include "core/scene/calibration_chart.hpp"
+#include "core/scene/calibration_result.hpp"
 #include "core/scene/design_space_chart.hpp"
+#include "core/scene/design_space_result.hpp"
+#include "ui/panels/value_card.hpp"
 #include "ui/plots/line_plot.hpp"
 #include "ui/plots/plot_export.hpp"
 
@@ -40,6 +44,7 @@ plots::LineChart lineChart(const scene::ResultChart& chart) {
     line.dashed = series.mark == scene::ResultSeries::Mark::dashedLine;
     line.dots = series.mark == scene::ResultSeries::Mark::points;
     line.joined = !line.dots;
+    line.items = series.designs;
     lines.lines.push_back(std::move(line));
   }
   return lines;
@@ -51,6 +56,10 @@ ChartPanel::ChartPanel(document::Document& document, jobs::JobRunner& quick, QWi
     : StudyPanel(document, {"calibration", "design_space"}, parent), quick_(quick) {
   split_ = new QSplitter(Qt::Horizontal);
   split_->setChildrenCollapsible(false);
+  card_ = new ValueCard;
+  card_->hide();
+  split_->addWidget(card_);
+  connect(card_->takeButton(), &QPushButton::clicked, this, &ChartPanel::takeValues);
   setPlot(split_);
 }
 
@@ -78,7 +87,16 @@ bool ChartPanel::present(const document::StudyState* study) {
   const auto result = study ? study->result : nullptr;
   if (result == result_) return !plots_.empty();
   result_ = result;
-  take({});
+  const auto space = std::dynamic_pointer_cast<const scene::DesignSpaceResult>(result);
+  const std::string name = study ? study->name : std::string();
+  const bool same = space && space_ && space->model == space_->model && name == of_;
+  if (!same) leaveDesign();
+  of_ = name;
+  space_ = space;
+  if (chosen_ >= 0 && !hasMotion(chosen_)) leaveDesign();  // while a space is filled its designs keep their numbers
+  fit_ = std::dynamic_pointer_cast<const scene::CalibrationStudyResult>(result);
+  refreshCard();
+  if (!result) showCharts({});
   if (!result) return false;
   jobs::Job job;
   job.topic = topic;
@@ -87,23 +105,30 @@ bool ChartPanel::present(const document::StudyState* study) {
     return [panel, result, charts = chartsOf(*result)] {
       ChartPanel* self = panel.data();
       if (!self || self->result_ != result) return;
-      self->take(charts);
+      self->showCharts(charts);
       self->refresh();
     };
   };
   quick_.submit(std::move(job));
-  return false;
+  return !plots_.empty();
 }
 
-void ChartPanel::take(const std::vector<scene::ResultChart>& charts) {
-  for (plots::LinePlot* plot : plots_) plot->deleteLater();
-  plots_.clear();
-  for (const scene::ResultChart& chart : charts) {
+/// Plots stay where there are as many as before, so that a growing result does not flicker.
+void ChartPanel::showCharts(const std::vector<scene::ResultChart>& charts) {
+  for (; plots_.size() > charts.size(); plots_.pop_back()) plots_.back()->deleteLater();
+  while (plots_.size() < charts.size()) {
     auto* plot = new plots::LinePlot;
-    plot->setAccessibleName(QString::fromStdString(chart.title));
-    plot->setChart(lineChart(chart));
-    split_->addWidget(plot);
+    plot->setMinimumWidth(160);
+    plot->setItemText([this](int design) { return designText(design); });
+    connect(plot, &plots::LinePlot::itemChosen, this, &ChartPanel::chooseDesign);
+    split_->insertWidget(static_cast<int>(plots_.size()), plot);
+    split_->setStretchFactor(static_cast<int>(plots_.size()), 1);
     plots_.push_back(plot);
+  }
+  for (std::size_t i = 0; i < charts.size(); ++i) {
+    plots_[i]->setAccessibleName(QString::fromStdString(charts[i].title));
+    plots_[i]->setChart(lineChart(charts[i]));
+    plots_[i]->setChosenItem(chosen_);
   }
 }
 

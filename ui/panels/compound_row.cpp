@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QSignalBlocker>
+#include <algorithm>
 #include <cmath>
 
 #include "ui/panels/parameter_slider.hpp"
@@ -67,6 +68,12 @@ void CompoundRow::setMovable(bool movable, const QString& note) {
   slider_->setEnabled(movable);
   slider_->setToolTip(movable ? tr("To the right towards it, to the left away from it. Arrow keys nudge.") : note);
 }
+
+void CompoundRow::setTrusted(double towards, double away) {
+  slider_->setTrusted(-std::sqrt(std::min(1.0, away)), std::sqrt(std::min(1.0, towards)));
+}
+
+void CompoundRow::clearTrusted() { slider_->clearTrusted(); }
 
 void CompoundRow::rest() { slider_->setRealValue(0); }
 

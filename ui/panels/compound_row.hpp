@@ -27,6 +27,9 @@ class CompoundRow final : public QWidget {
   /// Empty text: nothing can be moved, and `note` says why.
   void setPrediction(const QString& text, bool moved);
   void setMovable(bool movable, const QString& note);
+  /// What parts of the way towards the goal and away from it predictions can be trusted for.
+  void setTrusted(double towards, double away);
+  void clearTrusted();
   /// Back in the middle.
   void rest();
 

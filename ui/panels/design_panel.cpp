@@ -1,5 +1,6 @@
 #include "ui/panels/design_panel.hpp"
 
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -14,6 +15,7 @@
 #include "core/base/error.hpp"
 #include "core/mechanics/design_parameter.hpp"
 #include "core/scene/designed_scene.hpp"
+#include "ui/panels/study_choice.hpp"
 #include "ui/panels/target_bar.hpp"
 #include "ui/panels/value_text.hpp"
 #include "ui/plots/line_plot.hpp"
@@ -51,13 +53,19 @@ DesignPanel::DesignPanel(document::Document& document, QWidget* parent) : QWidge
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);
   targets_ = new TargetBar;
-  whole->addWidget(targets_);
+  choice_ = new StudyChoice(
+      document_, [](const document::StudyState& study) { return study.type == "design"; }, this);
+  auto* head = new QHBoxLayout;
+  head->setContentsMargins(0, 0, 6, 0);
+  head->addWidget(targets_, 1);
+  head->addWidget(choice_);
+  whole->addLayout(head);
   pages_ = new QStackedLayout;
   whole->addLayout(pages_, 1);
   pages_->addWidget(makeEmptyPage());
   pages_->addWidget(makePage());
   connect(run_, &QPushButton::clicked, this, [this] {
-    if (const auto* own = study()) Q_EMIT runRequested(own->name);
+    if (const auto* own = choice_->study()) Q_EMIT runRequested(own->name);
   });
   connect(slider_, &QSlider::valueChanged, this, &DesignPanel::showDesign);
   connect(
@@ -68,12 +76,9 @@ DesignPanel::DesignPanel(document::Document& document, QWidget* parent) : QWidge
   });
   connect(compared_, &QSpinBox::valueChanged, this, &DesignPanel::play);
   connect(take_, &QPushButton::clicked, this, &DesignPanel::takeDesign);
+  connect(choice_, &StudyChoice::chosen, this, &DesignPanel::chooseStudy);
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
-    result_.reset();
-    problems_.clear();
-    played_.clear();
-    shown_ = -1;
-    compare_->setChecked(false);
+    forget();
     refresh();
   });
   connect(&document_, &document::Document::sceneEdited, this, &DesignPanel::refresh);
@@ -86,20 +91,48 @@ bool DesignPanel::hasDesign(const document::Document& document) {
                      [](const document::StudyState& study) { return study.type == "design"; });
 }
 
-const document::StudyState* DesignPanel::study() const {
-  for (const document::StudyState& each : document_.studies())
-    if (each.type == "design") return &each;
-  return nullptr;
-}
-
 QString DesignPanel::summary() const { return summary_->text(); }
 
+void DesignPanel::forget() {
+  result_.reset();
+  problems_.clear();
+  played_.clear();
+  follows_ = true;
+  picked_ = false;
+  shown_ = -1;
+  compare_->setChecked(false);
+}
+
+/// The designs of another study; what was looked at of the former one goes.
+void DesignPanel::chooseStudy() {
+  const bool looked = !played_.isEmpty();
+  forget();
+  if (looked) Q_EMIT designLeft();
+  takeResult();
+  refresh();
+}
+
 void DesignPanel::follow(const std::string& name) {
-  const document::StudyState* own = study();
+  const document::StudyState* own = choice_->study();
+  const auto isRunning = [](const document::StudyState* study) {
+    return study && study->status == document::StudyStatus::running;
+  };
+  const bool hadDesigns = own && own->name == name && result_ && !result_->design.history.empty();
+  // A study that is run is one that somebody waits for.
+  if (own && own->name != name && !isRunning(own) && isRunning(document_.study(name))) {
+    choice_->choose(name);
+    own = choice_->study();
+  }
   if (!own || own->name != name) return;
-  const auto result = std::dynamic_pointer_cast<const scene::DesignResult>(own->result);
-  const bool began = result && !result->design.history.empty() && own->status == document::StudyStatus::running &&
-                     (!result_ || result_->design.history.empty());
+  takeResult();
+  const bool began = isRunning(own) && !hadDesigns && result_ && !result_->design.history.empty();
+  refresh();
+  if (began) Q_EMIT designsGrow();
+}
+
+void DesignPanel::takeResult() {
+  const document::StudyState* own = choice_->study();
+  const auto result = own ? std::dynamic_pointer_cast<const scene::DesignResult>(own->result) : nullptr;
   if (result != result_ && result) {
     const bool another = !result_ || result_->design.history.empty() || result->design.history.empty() ||
                          result->before().model != result_->before().model;
@@ -111,12 +144,10 @@ void DesignPanel::follow(const std::string& name) {
       played_.clear();
     }
   }
-  refresh();
-  if (began) Q_EMIT designsGrow();
 }
 
 void DesignPanel::refresh() {
-  const document::StudyState* own = study();
+  const document::StudyState* own = choice_->study();
   const bool any = own && result_ && !result_->design.history.empty();
   pages_->setCurrentIndex(any ? 1 : 0);
   run_->setVisible(own);
@@ -170,7 +201,7 @@ void DesignPanel::put(int index) {
   }
   plot_->setInstant(shown_);
   position_->setText(tr("%1 of %2").arg(shown_).arg(last));
-  const document::StudyState* own = study();
+  const document::StudyState* own = choice_->study();
   QString text = gainText(*result_, history[static_cast<std::size_t>(shown_)]);
   if (own && own->stale) text += tr("  –  the scene has changed since");
   summary_->setText(text);
@@ -203,7 +234,7 @@ DesignMotion DesignPanel::motionOf(int index) {
   const harmonic::DesignIterate& design = result_->design.history[static_cast<std::size_t>(index)];
   auto& problem = problems_[design.model.get()];
   if (!problem) problem = result_->motionOf(design)->problem;
-  const document::StudyState* own = study();
+  const document::StudyState* own = choice_->study();
   const bool running = own && own->status == document::StudyStatus::running;
   const int last = static_cast<int>(result_->design.history.size()) - 1;
   const QString which = index == 0     ? tr("first design")

@@ -22,6 +22,7 @@ class LinePlot;
 
 namespace pliant::panels {
 
+class StudyChoice;
 class TargetBar;
 
 /// What a study of the type `design` found, while it runs and after: its objective over the iterations, and every
@@ -42,6 +43,8 @@ class DesignPanel final : public QWidget {
   QSlider* slider() const { return slider_; }
   QPushButton* take() const { return take_; }
   QPushButton* runButton() const { return run_; }
+  /// Which study, where there are several.
+  StudyChoice* choice() const { return choice_; }
   QString summary() const;
   /// Of the history; -1: none.
   int shownDesign() const { return shown_; }
@@ -66,6 +69,9 @@ class DesignPanel final : public QWidget {
   enum Column { nameColumn, beforeColumn, shownColumn, rangeColumn, columnCount };
 
   void refresh();
+  void chooseStudy();
+  void forget();
+  void takeResult();
   void follow(const std::string& name);
   QWidget* makeEmptyPage();
   QWidget* makePage();
@@ -75,7 +81,6 @@ class DesignPanel final : public QWidget {
   void play();
   DesignMotion motionOf(int index);
   void takeDesign();
-  const document::StudyState* study() const;
 
   document::Document& document_;
   std::shared_ptr<const scene::DesignResult> result_;
@@ -85,6 +90,7 @@ class DesignPanel final : public QWidget {
   std::map<const mechanics::Model*, std::shared_ptr<const harmonic::HarmonicBalanceProblem>> problems_;
   QString played_;  ///< what was shown last, so that it is not shown anew
   TargetBar* targets_;
+  StudyChoice* choice_;
   QStackedLayout* pages_;
   QLabel* note_;
   QPushButton* run_;

@@ -65,11 +65,19 @@ ModesPanel::ModesPanel(document::Document& document, jobs::MotionSession& sessio
   page->addWidget(table_, 1);
   page->addLayout(foot);
 
-  pages_ = new QStackedLayout(this);
+  choice_ = new StudyChoice(
+      document_, [](const document::StudyState& study) { return study.type == "linear_modes"; }, this);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  whole->addWidget(choice_);
+  pages_ = new QStackedLayout;
+  whole->addLayout(pages_, 1);
   pages_->addWidget(empty);
   pages_->addWidget(gallery);
 
-  connect(run_, &QPushButton::clicked, this, [this] { session_.run({study()}); });
+  connect(run_, &QPushButton::clicked, this, [this] { session_.run({choice_->name()}); });
+  connect(choice_, &StudyChoice::chosen, this, &ModesPanel::refresh);
   connect(table_, &QTableWidget::cellClicked, this, &ModesPanel::choose);
   connect(table_, &QTableWidget::currentCellChanged, this, [this](int row) {
     if (row >= 0 && played_ >= 0 && row != played_) choose(row);  // by the arrow keys
@@ -81,14 +89,8 @@ ModesPanel::ModesPanel(document::Document& document, jobs::MotionSession& sessio
   refresh();
 }
 
-std::string ModesPanel::study() const {
-  for (const document::StudyState& study : document_.studies())
-    if (study.type == "linear_modes") return study.name;
-  return {};
-}
-
 void ModesPanel::refresh() {
-  const std::string name = study();
+  const std::string name = choice_->name();
   const document::StudyState* state = name.empty() ? nullptr : document_.study(name);
   auto result = state && !state->stale ? std::dynamic_pointer_cast<const scene::ModesResult>(state->result) : nullptr;
   if (result && result->modes.modes.empty()) result = nullptr;

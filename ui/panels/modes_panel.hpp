@@ -6,6 +6,7 @@
 #include "core/scene/modes_result.hpp"
 #include "ui/document/document.hpp"
 #include "ui/jobs/motion_session.hpp"
+#include "ui/panels/study_choice.hpp"
 
 class QLabel;
 class QPushButton;
@@ -15,7 +16,7 @@ class QTableWidget;
 
 namespace pliant::panels {
 
-/// The gallery of linear modes: frequencies and damping ratios of the scene's first study of the type linear_modes. A
+/// The gallery of linear modes: frequencies and damping ratios of a study of the type linear_modes. A
 /// mode that is chosen is played in the viewport, with a swing to be set, until it is chosen again or something else is
 /// shown.
 class ModesPanel final : public QWidget {
@@ -25,6 +26,7 @@ class ModesPanel final : public QWidget {
   ModesPanel(document::Document& document, jobs::MotionSession& session, QWidget* parent = nullptr);
 
   QTableWidget* table() const { return table_; }
+  StudyChoice* choice() const { return choice_; }
   /// -1: none is played.
   int playedMode() const { return played_; }
 
@@ -42,12 +44,12 @@ class ModesPanel final : public QWidget {
   void refresh();
   void choose(int row);
   void play();
-  std::string study() const;
 
   document::Document& document_;
   jobs::MotionSession& session_;
   std::shared_ptr<const scene::ModesResult> result_;
   int played_ = -1;
+  StudyChoice* choice_;
   QStackedLayout* pages_;
   QLabel* note_;
   QPushButton* run_;

@@ -182,6 +182,10 @@ void ParameterPanel::refreshEffects() {
 
 void ParameterPanel::refreshTrust() {
   for (ParameterRow* each : rows_) each->setTrusted(trust_.range(each->pointer()));
+  if (const auto& reach = trust_.reach())
+    compound_->setTrusted(reach->towards, reach->away);
+  else
+    compound_->clearTrusted();
 }
 
 void ParameterPanel::refreshSummary() {

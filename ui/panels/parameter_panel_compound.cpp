@@ -75,6 +75,13 @@ void ParameterPanel::refreshDirection() {
     }
     direction_ = jobs::CompoundDirection(*shown->problem, shown->motion.z, *shown->sensitivity, *goal, movable);
   }
+  // The ways begin at the sliders, and trust is known from the motion that was solved.
+  if (direction_.isEmpty() || session_.isStale()) {
+    trust_.setWays({}, {});
+  } else {
+    const auto count = static_cast<Eigen::Index>(shown->problem->model().parameters.size());
+    trust_.setWays(direction_.way(1, count), direction_.way(-1, count));
+  }
   const QString obstacle = session_.predictionObstacle();
   compound_->setMovable(
       !direction_.isEmpty(), obstacle.isEmpty() ? tr("Nothing that is not locked changes it.") : obstacle);

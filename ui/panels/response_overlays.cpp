@@ -33,6 +33,12 @@ std::vector<std::string_view> headerOf(std::string_view text) {
 
 }  // namespace
 
+int probeOf(const mechanics::Model& model, int node) {
+  for (std::size_t i = 0; i < model.probes.size(); ++i)
+    if (model.probes[i].node == node) return static_cast<int>(i);
+  return -1;
+}
+
 std::vector<plots::ResponseOverlay> studyOverlays(const document::Document& document, const std::string& shown,
                                                   int node, jobs::AmplitudeMeasure measure) {
   std::vector<plots::ResponseOverlay> overlays;
@@ -40,10 +46,9 @@ std::vector<plots::ResponseOverlay> studyOverlays(const document::Document& docu
     const auto* result = dynamic_cast<const scene::HarmonicResult*>(study.result.get());
     // A single periodic motion is what the plot's own marker shows.
     if (!result || study.name == shown || study.stale || study.type == "periodic_motion") continue;
-    const auto& probes = result->problem->model().probes;
-    const auto probe = std::find_if(probes.begin(), probes.end(), [&](const auto& p) { return p.node == node; });
-    if (probe == probes.end()) continue;
-    const auto index = static_cast<std::size_t>(probe - probes.begin());
+    const int probe = probeOf(result->problem->model(), node);
+    if (probe < 0) continue;
+    const auto index = static_cast<std::size_t>(probe);
     plots::ResponseOverlay overlay;
     overlay.name = QString::fromStdString(study.name);
     overlay.dots = result->points.size() < 2;

@@ -10,6 +10,9 @@
 
 namespace pliant::panels {
 
+/// The probe at a node; -1 if there is none.
+int probeOf(const mechanics::Model& model, int node);
+
 /// What other studies than `shown` have found of a probe's amplitude: curves of linear analysis, single motions of time
 /// integration, other response curves. Empty if `node` is no probe.
 std::vector<plots::ResponseOverlay> studyOverlays(const document::Document& document, const std::string& shown,

@@ -40,12 +40,6 @@ double probeAmplitude(const harmonic::ResponsePoint& point, std::size_t probe, A
   return measure == AmplitudeMeasure::pathLength ? amplitude.pathLength : amplitude.maximumDisplacement;
 }
 
-int probeOf(const mechanics::Model& model, int node) {
-  for (std::size_t i = 0; i < model.probes.size(); ++i)
-    if (model.probes[i].node == node) return static_cast<int>(i);
-  return -1;
-}
-
 /// All nodes where one of them is farthest from its mean position.
 harmonic::Vector positionsFarthestOut(const harmonic::HarmonicBalanceProblem& problem, const harmonic::Vector& z,
                                       int node) {
@@ -63,7 +57,7 @@ harmonic::Vector positionsFarthestOut(const harmonic::HarmonicBalanceProblem& pr
 
 ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& session, jobs::JobRunner& quick,
                              QWidget* parent)
-    : QWidget(parent), document_(document), session_(session), quick_(quick) {
+    : QWidget(parent), document_(document), session_(session), quick_(quick), predictor_(document, session) {
   studies_ = new QComboBox;
   studies_->setToolTip(tr("Which study's curve is shown"));
   nodes_ = new QComboBox;
@@ -153,6 +147,7 @@ ResponsePanel::ResponsePanel(document::Document& document, jobs::MotionSession& 
   });
   connect(&session_, &jobs::MotionSession::shownChanged, this, &ResponsePanel::refreshMarkers);
   connect(&session_, &jobs::MotionSession::predictionChanged, this, &ResponsePanel::refreshMarkers);
+  connect(&predictor_, &jobs::CurvePredictor::changed, this, &ResponsePanel::refreshPredictedCurve);
   rebuild();
 }
 
@@ -216,6 +211,7 @@ void ResponsePanel::setHertz(bool hertz) {
 
 void ResponsePanel::rebuild() {
   drawn_.reset();
+  predictor_.setCurve(nullptr, std::nullopt);
   measurements_.clear();
   plot_->clear();
   studies_->clear();
@@ -249,6 +245,7 @@ void ResponsePanel::fillNodes() {
 
 void ResponsePanel::chooseStudy() {
   study_ = studies_->currentText().toStdString();
+  predictor_.setCurve(nullptr, std::nullopt);
   drawn_.reset();
   plot_->clear();
   refreshEmptyState();
@@ -279,6 +276,7 @@ void ResponsePanel::refreshCurve() {
   plot_->setAmplitudeLabel(measure);
   const auto result = std::dynamic_pointer_cast<const scene::HarmonicResult>(study->result);
   drawn_ = result;
+  followCurve();
   if (!result) {
     quick_.cancelTopic(amplitudeTopic);
     showCurves(nullptr, {});
@@ -372,6 +370,7 @@ void ResponsePanel::changeEvent(QEvent* event) {
 }
 
 void ResponsePanel::refreshMarkers() {
+  refreshPredictedCurve();
   const auto& shown = session_.shown();
   if (!shown) {
     plot_->setShownMotion(std::nullopt);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "ui/jobs/curve_predictor.hpp"
 #include "ui/jobs/motion_session.hpp"
 #include "ui/plots/response_plot.hpp"
 
@@ -23,6 +24,7 @@ class ResponsePanel final : public QWidget {
                 QWidget* parent = nullptr);
 
   plots::ResponsePlot* plot() const { return plot_; }
+  const jobs::CurvePredictor& predictor() const { return predictor_; }
   /// The study whose curve is shown; empty if the scene has none.
   std::string study() const { return study_; }
   void setHertz(bool hertz);
@@ -51,6 +53,8 @@ class ResponsePanel final : public QWidget {
   void refreshCurve();
   void showCurves(const scene::HarmonicResult* result, const std::vector<double>& amplitudes);
   void refreshMarkers();
+  void followCurve();
+  void refreshPredictedCurve();
   void refreshEmptyState();
   void refreshOverlays();
   void refreshInsets();
@@ -59,6 +63,7 @@ class ResponsePanel final : public QWidget {
   document::Document& document_;
   jobs::MotionSession& session_;
   jobs::JobRunner& quick_;
+  jobs::CurvePredictor predictor_;
   std::string study_;
   std::shared_ptr<const scene::Result> drawn_;
   std::vector<ShapeAt> peaks_;  ///< of the curve that is shown

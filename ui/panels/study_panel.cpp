@@ -1,6 +1,5 @@
 #include "ui/panels/study_panel.hpp"
 
-#include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -33,8 +32,8 @@ StudyPanel::StudyPanel(document::Document& document, std::vector<std::string> ty
   middle->addWidget(run_, 0, Qt::AlignHCenter);
   middle->addStretch();
 
-  studies_ = new QComboBox;
-  studies_->setToolTip(tr("Which study is shown"));
+  studies_ = new StudyChoice(
+      document_, [this](const document::StudyState& study) { return shows(study.type); }, this);
   studies_->setFixedHeight(controlHeight);
   stale_ = new QLabel(tr("inputs have changed since this was computed"));
   head_ = new QHBoxLayout;
@@ -65,16 +64,12 @@ void StudyPanel::setPlot(QWidget* plot) {
     refresh();
     Q_EMIT studyChosen(study());
   });
-  const auto renew = [this] {
-    fillStudies();
-    refresh();
-  };
-  connect(&document_, &document::Document::sceneReplaced, this, renew);
-  connect(&document_, &document::Document::sceneEdited, this, renew);
+  connect(&document_, &document::Document::sceneReplaced, this, &StudyPanel::refresh);
+  connect(&document_, &document::Document::sceneEdited, this, &StudyPanel::refresh);
   connect(&document_, &document::Document::studyChanged, this, [this](const std::string& name) {
     if (name == study()) refresh();
   });
-  renew();
+  refresh();
 }
 
 QToolButton* StudyPanel::addButton(const QString& text, const QString& tooltip) {
@@ -92,22 +87,9 @@ bool StudyPanel::isBusy(const document::StudyState& study) {
 
 bool StudyPanel::shows(const std::string& type) const { return std::ranges::find(types_, type) != types_.end(); }
 
-std::string StudyPanel::study() const { return studies_->currentText().toStdString(); }
-
 void StudyPanel::setStudy(const std::string& name) {
-  const int index = studies_->findText(QString::fromStdString(name));
-  if (index < 0) return;
-  studies_->setCurrentIndex(index);
+  studies_->choose(name);
   refresh();
-}
-
-void StudyPanel::fillStudies() {
-  const QString before = studies_->currentText();
-  studies_->clear();
-  for (const document::StudyState& study : document_.studies())
-    if (shows(study.type)) studies_->addItem(QString::fromStdString(study.name));
-  studies_->setCurrentIndex(std::max(0, studies_->findText(before)));
-  studies_->setVisible(studies_->count() > 1);
 }
 
 void StudyPanel::refresh() {

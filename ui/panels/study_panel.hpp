@@ -8,8 +8,8 @@
 
 #include "core/scene/study.hpp"
 #include "ui/document/document.hpp"
+#include "ui/panels/study_choice.hpp"
 
-class QComboBox;
 class QHBoxLayout;
 class QLabel;
 class QPushButton;
@@ -26,7 +26,7 @@ class StudyPanel : public QWidget {
  public:
   /// Whether it shows results of studies of this type.
   bool shows(const std::string& type) const;
-  std::string study() const;
+  std::string study() const { return studies_->name(); }
   void setStudy(const std::string& name);
   /// A table, or a picture, by the extension. Throws base::InputError.
   virtual void exportTo(const QString& file) = 0;
@@ -61,14 +61,13 @@ class StudyPanel : public QWidget {
   document::Document& document_;
 
  private:
-  void fillStudies();
   void chooseExport();
 
   std::vector<std::string> types_;
   QStackedLayout* pages_;
   QLabel *note_, *stale_;
   QPushButton* run_;
-  QComboBox* studies_;
+  StudyChoice* studies_;
   QHBoxLayout *head_, *switches_;
   QWidget* shown_;
 };

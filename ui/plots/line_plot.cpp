@@ -40,14 +40,19 @@ LinePlot::LinePlot(QWidget* parent)
     const QPoint moved = event->pos() - press_;
     if (moved.manhattanLength() > 4)
       zoomed_ = true;
+    else if (const int item = itemAt(event->position()); item >= 0)
+      Q_EMIT itemChosen(item);
     else if (plot_->axisRect()->rect().contains(event->pos()))
       Q_EMIT placeChosen(plot_->xAxis->pixelToCoord(event->pos().x()));
   });
+  plot_->setMouseTracking(true);
+  connect(plot_, &QCustomPlot::mouseMove, this, [this](QMouseEvent* event) { hover(event->position()); });
   applyStyle();
 }
 
 void LinePlot::setNote(const QString& sentence) {
   chart_ = {};
+  chosenItem_ = -1;
   note_->setText(sentence);
   pages_->setCurrentWidget(note_);
 }
@@ -81,7 +86,10 @@ void LinePlot::fit() {
     plot_->yAxis->setRange(std::min(0.0, y.lower), 1.12 * std::max(y.upper, 0.0));
   else
     plot_->yAxis->scaleRange(1.12);
-  if (chart_.fromZero) plot_->xAxis->scaleRange(1.12);
+  // Single points are whole at the ends, too.
+  const bool loose =
+      std::any_of(chart_.lines.begin(), chart_.lines.end(), [](const PlotLine& line) { return !line.joined; });
+  if (chart_.fromZero || loose) plot_->xAxis->scaleRange(1.12);
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -126,6 +134,7 @@ void LinePlot::redraw() {
     drawn->setName(line.name);
     if (!line.name.isEmpty()) drawn->addToLegend();
   }
+  makeItemMarks();
   plot_->legend->setVisible(plot_->legend->itemCount() > 1);
   plot_->axisRect()->insetLayout()->setInsetAlignment(
       0, chart_.legendBelow ? Qt::AlignLeft | Qt::AlignBottom : Qt::AlignRight | Qt::AlignTop);

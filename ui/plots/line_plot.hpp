@@ -1,9 +1,12 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <vector>
 
+class QCPCurve;
 class QCPItemStraightLine;
+class QCPItemText;
 class QCustomPlot;
 class QLabel;
 class QStackedLayout;
@@ -18,6 +21,8 @@ struct PlotLine {
   bool dashed = false;
   bool dots = false;   ///< its points are marked
   bool joined = true;  ///< by a line
+  /// What each point is of, by numbers of whoever made the chart; empty: of nothing that can be chosen.
+  std::vector<int> items{};
 };
 
 /// What a line plot shows; units stand in the labels.
@@ -42,9 +47,16 @@ class LinePlot final : public QWidget {
   void setNote(const QString& sentence);
   /// Marks a place of the x-axis.
   void setInstant(double x);
+  /// What is said of an item under the pointer.
+  void setItemText(std::function<QString(int item)> text) { itemText_ = std::move(text); }
+  /// Marks the points of an item, or its line if a whole line is of it; -1: none.
+  void setChosenItem(int item);
+  int chosenItem() const { return chosenItem_; }
   void fit();
 
   QCustomPlot* plot() const { return plot_; }
+  /// What stands beside the pointer; empty: nothing.
+  QString hoverText() const;
   const LineChart& chart() const { return chart_; }
   /// What is shown as text, two columns a line.
   QString toCsv() const;
@@ -55,6 +67,8 @@ class LinePlot final : public QWidget {
  Q_SIGNALS:
   /// A click at this place of the x-axis.
   void placeChosen(double x);
+  /// A click at a point of an item, instead.
+  void itemChosen(int item);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -62,6 +76,11 @@ class LinePlot final : public QWidget {
  private:
   void redraw();
   void applyStyle();
+  void makeItemMarks();
+  void markChosenItem();
+  void hover(const QPointF& pixel);
+  /// The item whose point is drawn nearest to a pixel and not far from it; -1 if there is none.
+  int itemAt(const QPointF& pixel) const;
 
   QStackedLayout* pages_;
   QCustomPlot* plot_;
@@ -72,6 +91,11 @@ class LinePlot final : public QWidget {
   bool instantSet_ = false;
   bool zoomed_ = false;
   QPoint press_;
+  std::function<QString(int)> itemText_;
+  int chosenItem_ = -1;
+  QCPCurve* chosenPoints_ = nullptr;
+  QCPCurve* chosenLine_ = nullptr;
+  QCPItemText* hoverLabel_ = nullptr;
 };
 
 }  // namespace pliant::plots

@@ -62,6 +62,7 @@ void ResponsePlot::clear() {
   p.earlierCurve = {};
   p.shownPlace.reset();
   p.predictedPlace.reset();
+  p.predictedResponse.reset();
   p.top = 0;
   p.zoomed = false;
   p.curves.clear();
@@ -106,6 +107,14 @@ void ResponsePlot::setPrediction(std::optional<ResponsePlace> place) {
   redrawMarkers();
 }
 
+void ResponsePlot::setPredictedCurve(std::optional<PredictedResponse> curve) {
+  if (!curve && !parts_->predictedResponse) return;
+  parts_->predictedResponse = std::move(curve);
+  redrawMarkers();
+}
+
+const std::optional<PredictedResponse>& ResponsePlot::predictedCurve() const { return parts_->predictedResponse; }
+
 void ResponsePlot::enlargeToFit() {
   Parts& p = *parts_;
   double largest = 0;
@@ -117,6 +126,11 @@ void ResponsePlot::enlargeToFit() {
   look(p.earlierCurve);
   if (p.shownPlace) largest = std::max(largest, p.shownPlace->amplitude);
   if (p.predictedPlace) largest = std::max(largest, p.predictedPlace->amplitude);
+  if (p.predictedResponse) {
+    const double most = 2 * largest;
+    for (const double amplitude : p.predictedResponse->curve.amplitude)
+      largest = std::max(largest, std::min(amplitude, most));
+  }
   if (!(largest > 0)) return;
   // Headroom for the labels above the peaks; while the curve grows one jump has to last for a while.
   const bool grows = p.status == document::StudyStatus::running;

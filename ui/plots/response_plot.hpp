@@ -39,6 +39,12 @@ struct ResponsePlace {
   double amplitude = 0;  ///< [m]
 };
 
+/// A curve foretold for parameters that are not those of the solved one.
+struct PredictedResponse {
+  ResponseCurve curve;  ///< of the selected node
+  std::vector<ResponsePlace> peaks;
+};
+
 /// A picture that belongs to a place of the curve.
 struct ResponseInset {
   ResponsePlace place;
@@ -86,6 +92,10 @@ class ResponsePlot final : public QWidget {
 
   void setShownMotion(std::optional<ResponsePlace> place);
   void setPrediction(std::optional<ResponsePlace> place);
+  /// Dashed, with its peaks marked. It enlarges the axes to no more than twice what is solved: a linear prediction goes
+  /// anywhere when parameters are far away.
+  void setPredictedCurve(std::optional<PredictedResponse> curve);
+  const std::optional<PredictedResponse>& predictedCurve() const;
 
   /// Shows everything.
   void fit();
@@ -126,6 +136,7 @@ class ResponsePlot final : public QWidget {
   void fitAmplitudes();
   void redrawMarkers();
   void replotMarkers();
+  void redrawPredictedCurve();
   void placeLabels();
   void placeInsets(const std::vector<QRectF>& taken);
   void updateChip();

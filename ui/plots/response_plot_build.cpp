@@ -58,8 +58,10 @@ void ResponsePlot::build() {
   p.step = makeCurve();
   p.shown = makeCurve();
   p.predicted = makeCurve();
+  p.predictedCurve = makeCurve();
+  p.predictedPeaks = makeCurve();
   p.hover = makeCurve();
-  for (QCPCurve* marker : {p.folds, p.peaks, p.bifurcations, p.shown, p.predicted, p.hover})
+  for (QCPCurve* marker : {p.folds, p.peaks, p.bifurcations, p.shown, p.predicted, p.predictedPeaks, p.hover})
     marker->setLineStyle(QCPCurve::lsNone);
 
   p.plot->legend->setVisible(false);
@@ -97,10 +99,12 @@ void ResponsePlot::build() {
   connect(p.plot, &QCustomPlot::mouseRelease, this, &ResponsePlot::release);
   connect(p.plot, &QCustomPlot::mouseDoubleClick, this, &ResponsePlot::fit);
   connect(p.plot, &QCustomPlot::mouseWheel, this, [this] { parts_->zoomed = true; });
-  for (QCPLayerable* marker : {static_cast<QCPLayerable*>(p.step), static_cast<QCPLayerable*>(p.shown),
-                               static_cast<QCPLayerable*>(p.predicted), static_cast<QCPLayerable*>(p.hover),
-                               static_cast<QCPLayerable*>(p.cursor), static_cast<QCPLayerable*>(p.cursorLabel),
-                               static_cast<QCPLayerable*>(p.predictedLabel), static_cast<QCPLayerable*>(p.hoverLabel)})
+  for (QCPLayerable* marker :
+       {static_cast<QCPLayerable*>(p.predictedCurve), static_cast<QCPLayerable*>(p.predictedPeaks),
+        static_cast<QCPLayerable*>(p.step), static_cast<QCPLayerable*>(p.shown),
+        static_cast<QCPLayerable*>(p.predicted), static_cast<QCPLayerable*>(p.hover),
+        static_cast<QCPLayerable*>(p.cursor), static_cast<QCPLayerable*>(p.cursorLabel),
+        static_cast<QCPLayerable*>(p.predictedLabel), static_cast<QCPLayerable*>(p.hoverLabel)})
     marker->setLayer(p.markers);
   connect(p.plot, &QCustomPlot::beforeReplot, this, &ResponsePlot::placeLabels);
   connect(p.plot, &QCustomPlot::afterReplot, this, [this] {
@@ -148,6 +152,8 @@ void ResponsePlot::applyStyle() {
   p.shown->setScatterStyle(marker(QCPScatterStyle::ssCircle, QPen(s.background, 2), s.shown, 13));
   p.predicted->setScatterStyle(
       marker(QCPScatterStyle::ssCircle, QPen(s.prediction, 2, Qt::SolidLine), s.background, 12));
+  p.predictedCurve->setPen(QPen(s.prediction, 1.5, Qt::DashLine));
+  p.predictedPeaks->setScatterStyle(marker(QCPScatterStyle::ssTriangle, QPen(s.prediction, 1.5), s.background, 8));
   p.hover->setScatterStyle(marker(QCPScatterStyle::ssCircle, QPen(s.curve, 1.5), s.background, 8));
   p.step->setPen(QPen(s.prediction, 1.5, Qt::DashLine));
   p.cursor->setPen(QPen(s.shown, 1.5));

@@ -11,15 +11,22 @@ namespace pliant::plots {
 
 namespace {
 
-constexpr int pointsBetween = 7;       // two computed ones
 constexpr qsizetype manyPoints = 500;  // smooth as they are
 
 /// Okabe and Ito's colours that the study's own curves leave.
 constexpr std::array<QRgb, 5> overlayColors{0xffd55e00, 0xff009e73, 0xffcc79a7, 0xff8a6d00, 0xff56b4e9};
 
-/// Fills `into`, and `unstable`, if given, with the unstable parts; both begin anew where another branch begins.
-void fill(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre, int mostBetween = pointsBetween,
-          QCPCurve* unstable = nullptr) {
+void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double perOmega, double perMetre) {
+  if (place)
+    into->setData({place->omega * perOmega}, {place->amplitude * perMetre});
+  else
+    into->data()->clear();
+}
+
+}  // namespace
+
+void fillCurve(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre, int mostBetween,
+               QCPCurve* unstable) {
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
   const std::size_t count = curve.omega.size();
   const auto isUnstable = [&](std::size_t point) {
@@ -52,15 +59,6 @@ void fill(QCPCurve* into, const ResponseCurve& curve, double perOmega, double pe
   if (unstable) unstable->setData(t, keys, unstableValues, true);
 }
 
-void fillPoint(QCPCurve* into, const std::optional<ResponsePlace>& place, double perOmega, double perMetre) {
-  if (place)
-    into->setData({place->omega * perOmega}, {place->amplitude * perMetre});
-  else
-    into->data()->clear();
-}
-
-}  // namespace
-
 void ResponsePlot::redrawCurves() {
   Parts& p = *parts_;
   p.outdated = true;
@@ -69,7 +67,7 @@ void ResponsePlot::redrawCurves() {
   const double perMetre = p.unit.perMetre;
   const bool faded = p.stale && p.status != document::StudyStatus::running;
 
-  fill(p.earlier, p.earlierCurve, perOmega, perMetre);
+  fillCurve(p.earlier, p.earlierCurve, perOmega, perMetre);
   while (p.others.size() + 1 < p.curves.size()) {
     auto* curve = new QCPCurve(p.plot->xAxis, p.plot->yAxis);
     curve->setAntialiased(true);
@@ -81,7 +79,7 @@ void ResponsePlot::redrawCurves() {
   p.unstable->data()->clear();
   for (int i = 0; i < static_cast<int>(p.curves.size()); ++i) {
     QCPCurve* curve = i == p.selectedCurve ? p.selected : p.others[other++];
-    fill(curve, p.curves[i], perOmega, perMetre, pointsBetween, curve == p.selected ? p.unstable : nullptr);
+    fillCurve(curve, p.curves[i], perOmega, perMetre, smoothPointsBetween, curve == p.selected ? p.unstable : nullptr);
     if (curve != p.selected) curve->setPen(QPen(faded ? p.style.grid : p.style.otherCurve, 1));
   }
   p.selected->setPen(QPen(faded ? p.style.stale : p.style.curve, faded ? 1.5 : 2));
@@ -112,9 +110,9 @@ void ResponsePlot::redrawCurves() {
       p.landmarks.push_back({curve->omega[i], curve->amplitude[i], peak, text, label});
     }
   }
-  fill(p.folds, folds, perOmega, perMetre, 0);
-  fill(p.peaks, peaks, perOmega, perMetre, 0);
-  fill(p.bifurcations, bifurcations, perOmega, perMetre, 0);
+  fillCurve(p.folds, folds, perOmega, perMetre, 0);
+  fillCurve(p.peaks, peaks, perOmega, perMetre, 0);
+  fillCurve(p.bifurcations, bifurcations, perOmega, perMetre, 0);
   updateAxisLabels();
 }
 
@@ -139,7 +137,7 @@ void ResponsePlot::redrawOverlays() {
     ResponseCurve drawn;
     drawn.omega = overlay.omega;
     drawn.amplitude = overlay.amplitude;
-    fill(curve, drawn, frequencyFactor(), p.unit.perMetre, overlay.dots ? 0 : pointsBetween);
+    fillCurve(curve, drawn, frequencyFactor(), p.unit.perMetre, overlay.dots ? 0 : smoothPointsBetween);
     curve->addToLegend();
     p.overlayCurves.push_back(curve);
   }
@@ -164,6 +162,7 @@ void ResponsePlot::redrawMarkers() {
     p.predictedLabel->setPadding(QMargins(4, 1, 4, 1));
     p.predictedLabel->setText(tr("predicted %1").arg(formatLength(p.predictedPlace->amplitude)));
   }
+  redrawPredictedCurve();
   const bool cursor = p.draggingCursor || p.shownPlace.has_value();
   p.cursor->setVisible(cursor);
   p.cursorLabel->setVisible(p.draggingCursor);
@@ -227,6 +226,8 @@ void ResponsePlot::placeLabels() {
   std::stable_sort(order.begin(), order.end(), [](const Landmark* a, const Landmark* b) {
     return a->peak != b->peak ? a->peak : a->amplitude > b->amplitude;
   });
+  for (Landmark& landmark : p.predictedLandmarks)
+    if (!landmark.text.isEmpty()) order.push_back(&landmark);
   std::vector<QRectF> taken;
   if (p.chip->isVisible()) taken.push_back(QRectF(p.chip->geometry()).adjusted(-8, -4, 8, 4));
   const auto keepClear = [&](const std::optional<ResponsePlace>& place, double reach) {
@@ -237,6 +238,8 @@ void ResponsePlot::placeLabels() {
   keepClear(p.shownPlace, 10);
   keepClear(p.predictedPlace, 10);
   for (const InsetItem& inset : p.insets) keepClear(inset.place, 6);  // where leaders begin
+  for (const Landmark* landmark : order)
+    if (landmark->peak) keepClear(ResponsePlace{landmark->omega, landmark->amplitude}, 5);
   if (p.predictedPlace) taken.push_back(predictedText);
   const QRectF frame = p.plot->axisRect()->rect();
   for (Landmark* landmark : order) {

@@ -12,6 +12,12 @@
 
 namespace pliant::plots {
 
+/// Fills `into`, and `unstable`, if given, with the unstable parts, smoothly with up to `between` more points in each
+/// gap; both begin anew where another branch begins.
+inline constexpr int smoothPointsBetween = 7;
+void fillCurve(QCPCurve* into, const ResponseCurve& curve, double perOmega, double perMetre,
+               int between = smoothPointsBetween, QCPCurve* unstable = nullptr);
+
 /// "fold"; empty for a regular point.
 QString kindName(harmonic::PointKind kind);
 
@@ -57,12 +63,15 @@ struct ResponsePlot::Parts {
   QCPCurve* shown = nullptr;
   QCPCurve* predicted = nullptr;
   QCPCurve* step = nullptr;  ///< from the shown motion to the predicted one
+  QCPCurve* predictedCurve = nullptr;
+  QCPCurve* predictedPeaks = nullptr;
   QCPCurve* hover = nullptr;
   QCPItemStraightLine* cursor = nullptr;
   QCPItemText* cursorLabel = nullptr;
   QCPItemText* predictedLabel = nullptr;
   QCPItemText* hoverLabel = nullptr;
   std::vector<Landmark> landmarks;
+  std::vector<Landmark> predictedLandmarks;  ///< labels are kept and used again
   std::vector<InsetItem> insets;
 
   PlotStyle style;
@@ -83,6 +92,7 @@ struct ResponsePlot::Parts {
   bool zoomed = false;  ///< the designer chose what is shown
   std::optional<ResponsePlace> shownPlace;
   std::optional<ResponsePlace> predictedPlace;
+  std::optional<PredictedResponse> predictedResponse;
 
   bool pressed = false;
   bool draggingCursor = false;

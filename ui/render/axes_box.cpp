@@ -20,12 +20,6 @@ constexpr double numberGap = 9;       // device-independent pixels from the end 
 constexpr double nameGap = 44;
 constexpr int numberSize = 12, nameSize = 13;
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = std::lerp(a[i], b[i], part);
-  return result;
-}
-
 /// Pairs of points that are lines.
 void setLines(LinePrimitive& lines, const std::vector<Eigen::Vector3d>& ends) {
   vtkNew<vtkPoints> points;

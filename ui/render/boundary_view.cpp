@@ -29,12 +29,6 @@ constexpr double labelRoom = 0.1;    ///< that numbers take around the box, of i
 constexpr std::array<Color, 3> wayColors{{{0.0, 0.447, 0.698}, {0.902, 0.624, 0.0}, {0.8, 0.475, 0.655}}};
 constexpr std::array<const char*, 3> wayNames{"■ straight", "■ raised by\n    a neighbour", "■ not\n    star-shaped"};
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = std::lerp(a[i], b[i], part);
-  return result;
-}
-
 bool hasRange(const Bounds& bounds) { return bounds.low[0] <= bounds.high[0]; }
 
 /// All that is drawn of one boundary but its colours.

@@ -27,12 +27,6 @@ constexpr double handleSize = 0.045;                 // of the patch's extent
 constexpr double contactSize = 8, overlapSize = 15;  // device-independent pixels
 constexpr double paler = 0.55;                       // of the way to the background
 
-Color mixed(const Color& a, const Color& b, double share) {
-  Color result{};
-  for (std::size_t i = 0; i < 3; ++i) result[i] = (1 - share) * a[i] + share * b[i];
-  return result;
-}
-
 /// The surface of one shape, in its own coordinates.
 geometry::SurfaceMesh surfaceOf(const UnitCell& cell, int shape) {
   UnitCell alone = cell;

@@ -3,7 +3,6 @@
 #include <vtkProperty.h>
 
 #include <array>
-#include <cmath>
 
 #include "core/interlock/cell_surface.hpp"
 #include "ui/render/bounds.hpp"
@@ -19,12 +18,6 @@ constexpr int cells = 3;  ///< along each lattice vector
 constexpr int tints = 3;
 constexpr double captionRoom = 56;   ///< device-independent pixels
 constexpr double dashLength = 0.02;  ///< of the extent
-
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = std::lerp(a[i], b[i], part);
-  return result;
-}
 
 /// Puts a mesh after another one.
 void append(const geometry::SurfaceMesh& mesh, const Eigen::Vector3d& shift, geometry::SurfaceMesh& all) {

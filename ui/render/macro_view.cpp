@@ -97,8 +97,12 @@ struct MacroView::Parts {
     if (const scene::MacroFrame* shown = shownFrame()) return shown->positions;
     return result->state.positions.reshaped(3, result->sheet->mesh.points.cols());
   }
-  /// Without the colours of the sheet there is nothing on it that its elements would hide.
-  bool showsElements() const { return result && result->placed && (wantsElements || !stage.fieldVisible()); }
+  /// Without the colours of the sheet there is nothing on it that its elements would hide. Of a motion they have places
+  /// in its last frame alone.
+  bool showsElements() const {
+    const bool isAtEnd = !shownFrame() || shownFrame() == result->frames.back().get();
+    return result && result->placed && isAtEnd && (wantsElements || !stage.fieldVisible());
+  }
 
   void show() {
     const bool visible = result && result->state.positions.size() > 0;

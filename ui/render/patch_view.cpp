@@ -36,12 +36,6 @@ constexpr double roomyRadius = 48;  // of an element, where marks have their ful
 constexpr double farBehind = 0.02, lineBehind = 0.03;
 constexpr double rimRoom = 1.15;  ///< of the height of a paraboloid, over that of the elements
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = std::lerp(a[i], b[i], part);
-  return result;
-}
-
 /// The surface of one shape, in its own coordinates.
 geometry::SurfaceMesh surfaceOf(const interlock::UnitCell& patch, int shape) {
   interlock::UnitCell alone = patch;

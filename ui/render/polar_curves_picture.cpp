@@ -42,12 +42,6 @@ class CurvesItem final : public vtkContextItem {
 };
 vtkStandardNewMacro(CurvesItem);
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = std::lerp(a[i], b[i], part);
-  return result;
-}
-
 class CurvesPainter {
  public:
   CurvesPainter(vtkContext2D& painter, const Rectangle& place, const scene::PolarCurves& plot, double ratio,

@@ -31,12 +31,6 @@ std::array<unsigned char, 4> bytesOf(const Color& color, double opacity = 1) {
   return {byte(color[0]), byte(color[1]), byte(color[2]), byte(opacity)};
 }
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = (1 - part) * a[i] + part * b[i];
-  return result;
-}
-
 class PolarPainter {
  public:
   PolarPainter(vtkContext2D& painter, const Rectangle& place, double largest, double pixelRatio, Theme theme)

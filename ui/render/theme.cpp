@@ -1,5 +1,7 @@
 #include "ui/render/theme.hpp"
 
+#include <cmath>
+
 namespace pliant::render {
 namespace {
 
@@ -33,6 +35,12 @@ const Palette& palette(Theme theme) {
                             .trajectory = rgb(0x1fc795),
                             .prediction = rgb(0xe69f00)};
   return theme == Theme::dark ? dark : light;
+}
+
+Color mixed(const Color& a, const Color& b, double part) {
+  Color result;
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::lerp(a[i], b[i], part);
+  return result;
 }
 
 }  // namespace pliant::render

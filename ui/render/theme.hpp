@@ -26,4 +26,7 @@ struct Palette {
 
 const Palette& palette(Theme theme);
 
+/// `a` where `part` is 0, `b` where it is 1.
+Color mixed(const Color& a, const Color& b, double part);
+
 }  // namespace pliant::render

@@ -208,6 +208,10 @@ void MainWindow::connectParts() {
   connect(design_, &panels::DesignPanel::designsGrow, this, [this] {
     if (auto* dock = qobject_cast<QDockWidget*>(design_->parentWidget())) dock->raise();
   });
+  connect(charts_, &panels::ChartPanel::designChosen, modes_, &panels::ModesPanel::leave);
+  connect(charts_, &panels::ChartPanel::designChosen, link, &ViewportLink::showDesign);
+  connect(charts_, &panels::ChartPanel::designLeft, link, &ViewportLink::showMotion);
+  connect(&session_, &jobs::MotionSession::shownChanged, charts_, &panels::ChartPanel::leave);
   connect(&session_, &jobs::MotionSession::shownChanged, modes_, &panels::ModesPanel::leave);
   connect(viewport_, &viewport::Viewport::tauChanged, motion_, &panels::MotionPanel::setTau);
   status_->watch(studyJobs_);

@@ -1,10 +1,11 @@
-/// `pliant-bench-ui ui [--json FILE]`: what a designer waits for in the window, each the median of many times.
+/// `pliant-bench-ui ui|ui-design [--json FILE]`: what a designer waits for in the window.
 #include <QApplication>
 #include <QElapsedTimer>
 #include <algorithm>
 #include <stdexcept>
 
 #include "tests/benchmarks/bench_program.hpp"
+#include "tests/benchmarks/ui/bench_design_ui.hpp"
 #include "ui/panels/parameter_panel.hpp"
 #include "ui/panels/parameter_row.hpp"
 #include "ui/shell/main_window.hpp"
@@ -87,6 +88,6 @@ Json measure() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  QApplication application(argc, argv);
-  return pliant::bench::runBenchmark(argc, argv, {{"ui", measure}});
+  pliant::bench::TimedApplication application(argc, argv);
+  return pliant::bench::runBenchmark(argc, argv, {{"ui", measure}, {"ui-design", pliant::bench::measureDesign}});
 }

@@ -10,8 +10,8 @@ using harmonic::HarmonicBalanceProblem;
 namespace {
 
 /// Everything at once: membranes, hinges, springs, point masses, gravity, forces, a rotating and a shifting drive,
-/// locks.
-std::shared_ptr<const Model> everything(mechanics::MassMatrix mass) {
+/// locks. `second`: some of the drives have the second frequency.
+std::shared_ptr<const Model> everything(mechanics::MassMatrix mass, bool second = false) {
   const StripOptions options{4, 2, 1e5, 2e-3, mass, 2e-3, true};
   const geometry::SurfaceMesh mesh = stripMesh(options);
   auto model = strip(options, mesh);
@@ -24,10 +24,11 @@ std::shared_ptr<const Model> everything(mechanics::MassMatrix mass) {
   model->stiffnessDamping = 3e-3;
   model->energies.push_back(mechanics::makeAnchoredSpring(3, last, vector3(0.1, 0.05, 0.08), 0.05, {{20, 30, 4000}}));
   model->energies.push_back(mechanics::makeSpring(3, last, last - 5, 0.02, {{5, 10}}));
-  model->drives = {mechanics::makeRotation(
-                       {0, 1}, vector3(0, 0, 0), Eigen::Vector3d(0.1, 1, 0.2), {{{1, 0.6, -1.0}, {2, 0.1, 0.3}}}),
+  model->drives = {mechanics::makeRotation({0, 1}, vector3(0, 0, 0), Eigen::Vector3d(0.1, 1, 0.2),
+                                           {{{1, 0.6, -1.0}, {2, 0.1, 0.3, second}}}),
                    mechanics::makeTranslation({2}, vector3(0.1, 0.2, 1), {{{0, 1e-3, 0}, {1, 5e-3, 0.4}}})};
-  model->forces = {{"force", {last}, vector3(0, 0.3, 1), {{{1, 2e-2, 0.2}, {3, 1e-2, 0.5}, {0, 5e-3, 0}}}}};
+  model->forces = {
+      {"force", {last}, vector3(0, 0.3, 1), {{{1, 2e-2, 0.2}, {3, 1e-2, 0.5}, {1, 1e-2, 0.4, second}, {0, 5e-3, 0}}}}};
   model->lockedCoordinates[3 * (last - 2) + 1] = 1;
   model->probes = {{"tip", last}};
   model->finish();
@@ -62,11 +63,17 @@ void TestHarmonicBalanceProblem::derivatives_data() {
   QTest::addColumn<int>("harmonics");
   QTest::addColumn<int>("samples");
   QTest::addColumn<bool>("mixed");
-  QTest::newRow("lumped") << static_cast<int>(mechanics::MassMatrix::lumped) << 3 << 16 << false;
-  QTest::newRow("consistent") << static_cast<int>(mechanics::MassMatrix::consistent) << 2 << 12 << false;
-  QTest::newRow("fewest samples") << static_cast<int>(mechanics::MassMatrix::consistent) << 3 << 7 << false;
-  QTest::newRow("constant") << static_cast<int>(mechanics::MassMatrix::lumped) << 0 << 3 << false;
-  QTest::newRow("harmonics per coordinate") << static_cast<int>(mechanics::MassMatrix::consistent) << 3 << 16 << true;
+  QTest::addColumn<double>("ratio");
+  QTest::newRow("lumped") << static_cast<int>(mechanics::MassMatrix::lumped) << 3 << 16 << false << 0.0;
+  QTest::newRow("consistent") << static_cast<int>(mechanics::MassMatrix::consistent) << 2 << 12 << false << 0.0;
+  QTest::newRow("fewest samples") << static_cast<int>(mechanics::MassMatrix::consistent) << 3 << 7 << false << 0.0;
+  QTest::newRow("constant") << static_cast<int>(mechanics::MassMatrix::lumped) << 0 << 3 << false << 0.0;
+  QTest::newRow("harmonics per coordinate")
+      << static_cast<int>(mechanics::MassMatrix::consistent) << 3 << 16 << true << 0.0;
+  QTest::newRow("two frequencies") << static_cast<int>(mechanics::MassMatrix::consistent) << 2 << 9 << false
+                                   << std::numbers::sqrt2;
+  QTest::newRow("two frequencies, fewest samples")
+      << static_cast<int>(mechanics::MassMatrix::lumped) << 2 << 5 << false << 0.3;
 }
 
 void TestHarmonicBalanceProblem::derivatives() {
@@ -74,10 +81,13 @@ void TestHarmonicBalanceProblem::derivatives() {
   QFETCH(int, harmonics);
   QFETCH(int, samples);
   QFETCH(bool, mixed);
-  const auto model = everything(static_cast<mechanics::MassMatrix>(mass));
+  QFETCH(double, ratio);
+  const auto model = everything(static_cast<mechanics::MassMatrix>(mass), ratio > 0);
+  const math::HarmonicBasis basis = ratio > 0 ? math::HarmonicBasis::ofTwoFrequencies(harmonics, samples, ratio)
+                                              : math::HarmonicBasis(harmonics, samples);
   std::vector<int> coordinateHarmonics;
   for (int f = 0; mixed && f < model->dofs.freeCount(); ++f) coordinateHarmonics.push_back(f * 7 % (harmonics + 1));
-  const HarmonicBalanceProblem problem(model, {harmonics, samples}, 1, coordinateHarmonics);
+  const HarmonicBalanceProblem problem(model, basis, 1, coordinateHarmonics);
   const Vector z = randomMotion(problem);
   const double omega = 7;
 
@@ -113,8 +123,8 @@ void TestHarmonicBalanceProblem::derivatives() {
     const double value = parameter->value(*model);
     const double change = 0.1 * value;  // h is linear in a mass
     const auto changed = [&](double by) {
-      return HarmonicBalanceProblem(std::make_shared<Model>(parameter->withValue(*model, value + by)),
-                                    {harmonics, samples}, 1, coordinateHarmonics)
+      return HarmonicBalanceProblem(
+                 std::make_shared<Model>(parameter->withValue(*model, value + by)), basis, 1, coordinateHarmonics)
           .residual(z, omega);
     };
     const Vector difference = (changed(change) - changed(-change)) / (2 * change);

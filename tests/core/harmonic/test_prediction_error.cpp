@@ -165,6 +165,17 @@ void TestPredictionError::rangesHoldTheErrorBelowTheShare() {
       if (free) QVERIFY(relative > 0.2 * share);
     }
   }
+  // All parameters together, both ways.
+  constexpr double share = 1e-3;
+  for (const double sign : {-1.0, 1.0}) {
+    const double reach = prediction.trustedReach(sign * example.direction, share);
+    const Vector change = sign * reach * example.direction;
+    const Vector error = sensitivity.predict(change) - motionAt(example, change, motion.z);
+    const double relative = error.norm() / problem.oscillation(motion.z).norm();
+    qInfo("%.4g of the direction: error %.3g of %.3g", sign * reach, relative, share);
+    QVERIFY(relative < 1.1 * share && relative > 0.2 * share);
+    QVERIFY(std::abs(prediction.trustedReach(2 * sign * example.direction, share) / reach - 0.5) < 1e-3);
+  }
 }
 
 void TestPredictionError::boundsOfAParameterBoundItsRange() {

@@ -69,6 +69,8 @@ class TestMacroSimulation : public QObject {
   void curvatureStaysWithinItsLimit();
   void penaltyAgreesWithTheBarrier();
   void turnedMaterialTurnsTheLimits();
+  void marginShrinksTheSetAboutItsMiddle();
+  void marginKeepsTheShapeAtRest();
   void badInputIsRefused_data();
   void badInputIsRefused();
 };
@@ -216,6 +218,43 @@ void TestMacroSimulation::turnedMaterialTurnsTheLimits() {
 }
 
 /// Thrown, it falls as every body does, whatever its limits are.
+/// Against a set that is made smaller by hand.
+void TestMacroSimulation::marginShrinksTheSetAboutItsMiddle() {
+  const double margin = 0.2;
+  const Vector3d middle(0.01, -0.02, 0.005);
+  const auto shape = [](const Vector3d& u) { return 0.1 * (1 + 0.3 * u.x() * u.y()); };
+  MacroMaterial whole, smaller;
+  whole.stretch = mechanics::strainSet(shape, middle);
+  smaller.stretch = mechanics::strainSet([&](const Vector3d& u) { return (1 - margin) * shape(u); }, middle);
+  whole.bending = ball(50);
+  smaller.bending = ball((1 - margin) * 50);
+  const MacroSheet sheet = strip(8, whole);
+  MacroLoads loads = clampedAtStart(sheet);
+  loads.gravity = {20, 0, -9.81};
+  MacroOptions options;
+  options.margin = margin;
+  const MacroState state = equilibriumOf(sheet, loads, options), expected = equilibriumOf(strip(8, smaller), loads);
+  QVERIFY(state.report.converged() && expected.report.converged());
+  QVERIFY((state.positions - expected.positions).cwiseAbs().maxCoeff() < 1e-6 * length);
+  QVERIFY(state.violation <= 0);
+  QVERIFY(state.stretchGauge.maxCoeff() < 1 - margin);
+  QVERIFY(state.stretchGauge.maxCoeff() > 0.98 * (1 - margin));
+  QVERIFY((state.stretchGauge - (1 - margin) * expected.stretchGauge).cwiseAbs().maxCoeff() < 1e-4);
+}
+
+void TestMacroSimulation::marginKeepsTheShapeAtRest() {
+  MacroMaterial material;
+  material.stretch = mechanics::strainSet([](const Vector3d&) { return 0.1; }, {0.07, 0, 0});
+  MacroOptions options;
+  options.margin = 0.29;
+  const MacroSimulation allowed(strip(4, material), options);
+  options.margin = 0.31;
+  QVERIFY_THROWS_EXCEPTION(base::InputError, MacroSimulation(strip(4, material), options));
+  options.margin = 0.1;
+  options.limits = mechanics::StrainLimitFunction::Kind::penalty;
+  QVERIFY_THROWS_EXCEPTION(base::InputError, MacroSimulation(strip(4, material), options));
+}
+
 void TestMacroSimulation::badInputIsRefused_data() {
   QTest::addColumn<std::string>("kind");
   for (const char* name : {"not flat", "no material", "no stiffness", "rest not allowed", "no such material"})

@@ -1,5 +1,6 @@
 #include <QTest>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -35,6 +36,55 @@ class HarmonicBasisTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(std::invalid_argument, HarmonicBasis(3, 6));
     QCOMPARE(HarmonicBasis(3, 7).size(), 7);
     QCOMPARE(HarmonicBasis(0, 1).size(), 1);
+  }
+
+  void refusesImpossibleRatios() {
+    for (const double ratio : {0.0, -1.5, std::nan(""), std::numeric_limits<double>::infinity()})
+      QVERIFY_THROWS_EXCEPTION(std::invalid_argument, HarmonicBasis::ofTwoFrequencies(3, 7, ratio));
+    QVERIFY_THROWS_EXCEPTION(std::invalid_argument, HarmonicBasis::ofTwoFrequencies(3, 6, 1.5));
+    QVERIFY_THROWS_EXCEPTION(std::invalid_argument, HarmonicBasis::ofTwoFrequencies(3, 7, 1.5, -1));
+  }
+
+  void twoFrequencies_data() {
+    QTest::addColumn<int>("order");
+    QTest::addColumn<int>("samples");
+    QTest::newRow("constant") << 0 << 1;
+    QTest::newRow("fewest samples") << 4 << 9;
+    QTest::newRow("even samples") << 3 << 16;
+  }
+  void twoFrequencies() {
+    QFETCH(int, order);
+    QFETCH(int, samples);
+    const double ratio = std::numbers::sqrt2;
+    const HarmonicBasis basis = HarmonicBasis::ofTwoFrequencies(order, samples, ratio, 5);
+    QCOMPARE(basis.harmonics(), order * (order + 1));
+    QCOMPARE(basis.samples(), samples * samples);
+    const Eigen::MatrixXd product = basis.analysis() * basis.synthesis();
+    QVERIFY((product - Eigen::MatrixXd::Identity(basis.size(), basis.size())).cwiseAbs().maxCoeff() < 1e-13);
+    for (const int i : {0, samples / 2, samples * samples / 2, samples * samples - 1})
+      QVERIFY((basis.synthesis().row(i).transpose() - basis.valuesAtPhases(basis.samplePhases(i))).norm() < 1e-12);
+    const Eigen::VectorXd c = randomVector(basis.size());
+    const Eigen::VectorXd rate = basis.derivative(c);
+    const double step = 1e-5;
+    for (const double tau : {0.0, 0.7, 5.1}) {
+      const auto at = [&](double t) { return basis.valuesAtPhases({5 * t, 5 * ratio * t}).dot(c); };
+      QVERIFY(std::abs(at(tau) - basis.valuesAt(tau).dot(c)) < 1e-12);
+      QVERIFY(std::abs((at(tau + step) - at(tau - step)) / (2 * step) - basis.valuesAt(tau).dot(rate)) < 1e-5);
+    }
+    const Eigen::VectorXd second = basis.secondDerivative(c);
+    QVERIFY((basis.derivative(rate) - second).norm() <= 1e-13 * second.norm());
+    // Coefficients of a lower order come first.
+    for (int lower = 0; lower < order; ++lower) {
+      const auto all = basis.combinations(order), some = basis.combinations(lower);
+      QVERIFY(std::equal(some.begin(), some.end(), all.begin()));
+    }
+  }
+  /// After so many periods both phases are nearly at the start again: 29 √2 = 41.01.
+  void returnsClose() {
+    QCOMPARE(HarmonicBasis::ofTwoFrequencies(1, 3, std::numbers::sqrt2).periods(), 29);
+    QCOMPARE(HarmonicBasis::ofTwoFrequencies(1, 3, 1.5).periods(), 2);
+    QCOMPARE(HarmonicBasis::ofTwoFrequencies(1, 3, 0.001).periods(), 32);
+    QCOMPARE(HarmonicBasis(3, 7).periods(), 1);
   }
 
   void analysisInvertsSynthesis_data() {

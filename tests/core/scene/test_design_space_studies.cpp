@@ -108,9 +108,14 @@ class TestDesignSpaceStudies : public QObject {
     QCOMPARE(charts.size(), std::size_t(2));
     QCOMPARE(charts[0].xLabel, std::string("Total mass [g]"));
     QCOMPARE(charts[0].series[0].x.size(), std::size_t(50));
+    for (const auto& series : charts[0].series)
+      for (std::size_t i = 0; i < series.x.size(); ++i)
+        QCOMPARE(series.x[i],
+                 1e3 * result->measures[0].of(result->space.designs[static_cast<std::size_t>(series.designs.at(i))]));
     QCOMPARE(charts[1].title, std::string("Paths of bob"));
     QCOMPARE(charts[1].series.back().group, 1);  // the scene's above the others
     QCOMPARE(charts[1].series.back().x.size(), std::size_t(65));
+    QCOMPARE(charts[1].series.back().designs, std::vector<int>(65, 0));
   }
 
   void refusesUnknownParameters() {

@@ -138,6 +138,77 @@ class TestMacroMotion : public QObject {
     QVERIFY_THROWS_EXCEPTION(base::InputError, scene::exportPlaced(*again, 2e-4, 1, file, context));
   }
 
+  void elementsOfAMotionStandOnItsLastFrame() {
+    const std::string text = R"({
+      "schema_version": 1,
+      "interlocking_cells": [{"name": "mail", "type": "threefold"}],
+      "bodies": [{"name": "ball", "type": "sphere", "center": [0, 0, 0], "radius": "60 mm"}],
+      "contact": {"distance": "2 mm", "friction": 0.3},
+      "studies": [{"name": "study", "type": "macro_motion", "shape": "disk", "radius": "30 mm", "rings": 4,
+        "elements": true, "young_modulus": "20 kPa", "placement": {"position": ["10 mm", 0, "62 mm"]},
+        "duration": "100 ms", "margin": 0.1}]})";
+    const scene::Scene scene = parsed(text);
+    const auto result = run(scene);
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    QVERIFY(result->placed && result->placed->check.holds());
+    QVERIFY(result->state.stretchGauge.maxCoeff() < 0.9);
+    const scene::Json summary = result->summary();
+    QVERIFY(summary["motion"]["dissipated"].get<double>() > 0);
+    // An element's place is near the triangle that is nearest to it, whichever that is.
+    const auto nodes = result->frames.back()->positions;
+    for (const Eigen::Vector3d place : result->placed->detail.state.positions.colwise())
+      QVERIFY((nodes.colwise() - place).colwise().norm().minCoeff() < 0.01);
+    QTemporaryDir directory;
+    const std::filesystem::path folder = directory.filePath("study").toStdString();
+    result->write(folder);
+    const auto again = scene::readMacro(scene, folder);
+    QVERIFY(again->placed->detail.state.positions == result->placed->detail.state.positions);
+    QCOMPARE(again->steps.back().energies.dissipated, result->steps.back().energies.dissipated);
+  }
+
+  void elementsOfRegionsShareTheirLattice() {
+    const std::string text = R"({
+      "schema_version": 1,
+      "interlocking_cells": [{"name": "mail", "type": "threefold"},
+        {"name": "thin", "type": "threefold", "wire_radius": "0.8 mm"},
+        {"name": "wide", "type": "threefold", "spacing": "15 mm"}],
+      "studies": [{"name": "study", "type": "macro_equilibrium", "cell": "mail", "shape": "rectangle",
+        "size": ["80 mm", "60 mm"], "rings": 8, "elements": true, "young_modulus": "20 kPa",
+        "regions": [{"name": "right", "cell": "thin", "corners": [[0, "-40 mm"], ["60 mm", "-40 mm"], ["60 mm", "40 mm"], [0, "40 mm"]]}],
+        "clamps": [{"point": ["-40 mm", 0], "radius": "40 mm"}]}]})";
+    const scene::Scene scene = parsed(text);
+    const auto result = run(scene);
+    QVERIFY2(result->termination == base::TerminationType::converged, result->message.c_str());
+    QVERIFY(result->placed->check.holds());
+    const auto& detail = result->placed->detail;
+    const std::size_t own = result->cell->elements.size() / 2;
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < detail.elements.size(); ++i) {
+      const bool isThin = detail.elements[i].element >= static_cast<int>(own);
+      const double x = detail.state.positions(0, static_cast<Eigen::Index>(i));
+      (isThin ? right : left) += 1;
+      QVERIFY(isThin ? x > -0.01 : x < 0.01);
+      const auto& element = result->cell->elements[static_cast<std::size_t>(detail.elements[i].element)];
+      const double radius = result->cell->shapes[static_cast<std::size_t>(element.shape)].pieces[0].radius;
+      QCOMPARE(radius < 9e-4, isThin);
+    }
+    QVERIFY(left > 5 && right > 5);
+    QTemporaryDir directory;
+    const std::filesystem::path folder = directory.filePath("study").toStdString();
+    result->write(folder);
+    const auto again = scene::readMacro(scene, folder);
+    QVERIFY(again->placed->detail.elements == detail.elements);
+    QCOMPARE(again->cell->elements.size(), 2 * own);
+
+    const auto refused = [&](const std::string& what, const std::string& with) {
+      std::string other = text;
+      other.replace(other.find(what), what.size(), with);
+      QVERIFY_THROWS_EXCEPTION(base::InputError, run(parsed(other)));
+    };
+    refused("\"cell\": \"thin\"", "\"cell\": \"wide\"");
+    refused("\"cell\": \"thin\"", "\"cell\": \"thin\", \"angle\": \"20 deg\"");
+  }
+
   void badInputIsRefused_data() {
     QTest::addColumn<std::string>("what");
     QTest::addColumn<std::string>("with");

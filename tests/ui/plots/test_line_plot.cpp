@@ -77,6 +77,42 @@ class TestLinePlot : public QObject {
     QVERIFY(std::abs(chosen[0][0].toDouble() - 1.3) < 0.02);
   }
 
+  /// Points that belong to something are chosen by a click and said when hovered; others are places.
+  void itemsAreChosen() {
+    LineChart chart = decay(11);
+    chart.lines[0].joined = false;
+    chart.lines[0].dots = true;
+    for (int i = 0; i < 11; ++i) chart.lines[0].items.push_back(100 + i);
+    plot_->setItemText([](int item) { return QStringLiteral("number %1").arg(item); });
+    plot_->setChart(chart);
+    QCoreApplication::processEvents();
+    const auto at = [&](int line, int i) {
+      const auto& drawn = chart.lines[static_cast<std::size_t>(line)];
+      return QPoint(
+          static_cast<int>(std::lround(plot_->plot()->xAxis->coordToPixel(drawn.x[static_cast<std::size_t>(i)]))),
+          static_cast<int>(std::lround(plot_->plot()->yAxis->coordToPixel(drawn.y[static_cast<std::size_t>(i)]))));
+    };
+    QSignalSpy items(plot_.get(), &LinePlot::itemChosen), places(plot_.get(), &LinePlot::placeChosen);
+    QTest::mouseClick(plot_->plot(), Qt::LeftButton, {}, at(0, 5) + QPoint(2, -2));
+    QCOMPARE(items.count(), 1);
+    QCOMPARE(items[0][0].toInt(), 105);
+    QTest::mouseClick(plot_->plot(), Qt::LeftButton, {}, at(1, 5));  // of nothing, and far from what is
+    QCOMPARE(items.count(), 1);
+    QCOMPARE(places.count(), 1);
+    QTest::mouseMove(plot_->plot(), at(0, 7));
+    QCOMPARE(plot_->hoverText(), QString("number 107"));
+    QTest::mouseMove(plot_->plot(), at(1, 5));
+    QVERIFY(plot_->hoverText().isEmpty());
+    plot_->plot()->replot();
+    const QImage before = plot_->grab().toImage();
+    plot_->setChosenItem(105);
+    plot_->plot()->replot();
+    QVERIFY(plot_->grab().toImage() != before);
+    plot_->setChosenItem(-1);
+    plot_->plot()->replot();
+    QCOMPARE(plot_->grab().toImage(), before);
+  }
+
   void numbersAreExported() {
     plot_->setChart(decay(3));
     const QStringList lines = plot_->toCsv().trimmed().split('\n');

@@ -1,6 +1,7 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -73,6 +74,7 @@ class TestResponsePlot : public QObject {
   void statesAreNamed();
   void theFrequencyUnitChangesNoPlace();
   void aLargePredictionIsStillSeen();
+  void aPredictedCurveIsDashedAndNamed();
   void theWheelZoomsAndADoubleClickShowsAll();
   void insetsStandBesideTheirPlaces();
   void leadersOfInsetsCrossNoLabels_data();
@@ -83,6 +85,15 @@ class TestResponsePlot : public QObject {
   QPoint at(const ResponsePlace& place) const { return plot_->positionOf(place).toPoint(); }
   QWidget* canvas() const { return plot_->childAt(plot_->rect().center()); }
   QPoint onCanvas(const ResponsePlace& place) const { return canvas()->mapFrom(plot_.get(), at(place)); }
+  /// That can be seen.
+  QStringList labels(const QString& beginning) const {
+    QStringList found;
+    for (int i = 0; i < plot_->plot()->itemCount(); ++i)
+      if (const auto* text = qobject_cast<QCPItemText*>(plot_->plot()->item(i));
+          text && text->visible() && text->text().startsWith(beginning))
+        found += text->text();
+    return found;
+  }
   void show(const ResponseCurve& curve, StudyStatus status = StudyStatus::solved, bool stale = false);
 
   std::unique_ptr<ResponsePlot> plot_;
@@ -216,6 +227,35 @@ void TestResponsePlot::aLargePredictionIsStillSeen() {
   plot_->setPrediction(ResponsePlace{curve.omega[60], 5 * plot_->largestAmplitudeShown()});
   QVERIFY(plot_->largestAmplitudeShown() > plot_->prediction()->amplitude);
   QVERIFY(plot_->rect().contains(at(*plot_->prediction())));
+}
+
+/// Over the solved one, with its peak said; far away it does not shrink what is solved.
+void TestResponsePlot::aPredictedCurveIsDashedAndNamed() {
+  const ResponseCurve curve = duffingCurve();
+  show(curve);
+  QCoreApplication::processEvents();
+  const QImage without = canvas()->grab().toImage();
+  const double top = plot_->largestAmplitudeShown();
+  plots::PredictedResponse predicted{curve, {}};
+  for (double& omega : predicted.curve.omega) omega *= 0.8;
+  const auto highest = std::max_element(curve.amplitude.begin(), curve.amplitude.end());
+  predicted.peaks = {{predicted.curve.omega[static_cast<std::size_t>(highest - curve.amplitude.begin())], *highest}};
+  plot_->setPredictedCurve(predicted);
+  QCOMPARE(plot_->largestAmplitudeShown(), top);
+  QTRY_COMPARE(labels("predicted peak").size(), 1);
+  QVERIFY(plot_->rect().contains(at(predicted.peaks[0])));
+  QTRY_VERIFY(canvas()->grab().toImage() != without);
+  // Without a peak the dashes are named at their highest point.
+  predicted.peaks.clear();
+  plot_->setPredictedCurve(predicted);
+  QTRY_COMPARE(labels("predicted"), QStringList("predicted"));
+  for (double& amplitude : predicted.curve.amplitude) amplitude *= 100;
+  plot_->setPredictedCurve(predicted);
+  QVERIFY(plot_->largestAmplitudeShown() > 1.5 * top && plot_->largestAmplitudeShown() < 4 * top);
+  plot_->setPredictedCurve(std::nullopt);
+  QTRY_COMPARE(labels("predicted").size(), 0);
+  plot_->fit();
+  QTRY_COMPARE(canvas()->grab().toImage(), without);
 }
 
 void TestResponsePlot::theWheelZoomsAndADoubleClickShowsAll() {
