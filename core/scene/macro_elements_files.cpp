@@ -1,7 +1,9 @@
 #include <Eigen/Geometry>
 
+#include "core/interlock/cell_surface.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/csv_table.hpp"
+#include "core/scene/element_table.hpp"
 #include "core/scene/interlock_head.hpp"
 #include "core/scene/macro_result.hpp"
 #include "core/scene/result_folder.hpp"
@@ -52,6 +54,21 @@ Json placedSummary(const PlacedElements& placed) {
             {"smallest_gap", "m, or the range of the barrier if that is less"},
             {"last_move", "m, of the farthest element in the last sweep"},
             {"smallest_distance", "m: no two elements are nearer, found without the contact that placed them"}}}};
+}
+
+void MacroResult::writeNative(ResultFolder& folder) const {
+  CsvWriter elements;
+  for (const char* column : {"element", "rest_x [m]", "rest_y [m]", "x [m]", "y [m]", "z [m]"}) elements.add(column);
+  elements.endRow();
+  for (std::size_t i = 0; i < native->patch->elements.size(); ++i) {
+    const Eigen::Vector3d& rest = native->patch->elements[i].position;
+    elements.add(static_cast<long>(i)).add(rest.x()).add(rest.y());
+    for (int k = 0; k < 3; ++k) elements.add(native->rest.state.positions(k, static_cast<Index>(i)));
+    elements.endRow();
+  }
+  folder.writeFile("elements.csv", elements.text());
+  folder.writeFile("native.csv", elementTable(native->rest.state));
+  geometry::writeMesh(cellSurface(*native->patch, native->rest.state, 1, 1, 0.2), folder.path("patch.ply"));
 }
 
 void MacroResult::writePlaced(ResultFolder& folder) const {

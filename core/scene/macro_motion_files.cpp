@@ -2,6 +2,7 @@
 
 #include "core/scene/csv.hpp"
 #include "core/scene/csv_table.hpp"
+#include "core/scene/element_table.hpp"
 #include "core/scene/frame_ply.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/json_text.hpp"
@@ -12,6 +13,12 @@ namespace pliant::scene {
 
 namespace {
 
+std::string nativeFileName(std::size_t frame) {
+  char name[40];
+  std::snprintf(name, sizeof(name), "frames/native_%05zu.csv", frame);
+  return name;
+}
+
 FramePly macroFrames(const interlock::MacroSheet& sheet) {
   return {"positions in metres, gauges 1 at the limit",
           {"stretch_gauge", "bending_gauge"},
@@ -21,7 +28,7 @@ FramePly macroFrames(const interlock::MacroSheet& sheet) {
 
 }  // namespace
 
-void MacroResult::writeMotion(ResultFolder& folder) const {
+void MacroResult::writeSteps(ResultFolder& folder) const {
   CsvWriter csv;
   for (const char* column :
        {"time [s]", "kinetic [J]", "elastic [J]", "potential [J]", "limits [J]", "contact [J]", "total [J]",
@@ -38,19 +45,29 @@ void MacroResult::writeMotion(ResultFolder& folder) const {
     csv.add(e.dissipated).add(step.friction.slidingShare).add(step.friction.lag).endRow();
   }
   folder.writeFile("steps.csv", csv.text());
+}
+
+void MacroResult::writeFrames(ResultFolder& folder) const {
   std::filesystem::create_directories(folder.path("frames"));
   const FramePly format = macroFrames(*sheet);
   CsvWriter list;
-  list.add("frame").add("time [s]").endRow();
+  list.add("frame").add(isMotion() ? "time [s]" : "part of the loads");
+  if (native) list.add("elements off the sheet [m]");
+  list.endRow();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     folder.writeFile(
         frameFileName(i), format.write(frames[i]->positions, {&frames[i]->stretchGauge, &frames[i]->bendingGauge}));
-    list.add(static_cast<long>(i)).add(frames[i]->time).endRow();
+    list.add(static_cast<long>(i)).add(frames[i]->time);
+    if (native) {
+      list.add(frames[i]->nativeDistance);
+      folder.writeFile(nativeFileName(i), elementTable(*frames[i]->native));
+    }
+    list.endRow();
   }
   folder.writeFile("frames.csv", list.text());
 }
 
-void readMacroMotion(const std::filesystem::path& directory, MacroResult& result) {
+void readMacroSteps(const std::filesystem::path& directory, MacroResult& result) {
   const CsvTable steps(directory / "steps.csv");
   for (std::size_t i = 0; i < steps.size(); ++i) {
     MacroStepRecord& step = result.steps.emplace_back();
@@ -68,17 +85,24 @@ void readMacroMotion(const std::filesystem::path& directory, MacroResult& result
     step.residual = steps.number(i, "residual");
     step.iterations = steps.integer(i, "iterations");
   }
+}
+
+void readMacroFrames(const std::filesystem::path& directory, MacroResult& result) {
   const FramePly format = macroFrames(*result.sheet);
   const CsvTable list(directory / "frames.csv");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string text = readTextFile(directory / frameFileName(i));
     auto frame = std::make_shared<MacroFrame>();
-    frame->time = list.number(i, "time [s]");
+    frame->time = list.number(i, result.isMotion() ? "time [s]" : "part of the loads");
     locate((directory / frameFileName(i)).string(), [&] {
       format.read(text, frame->positions, {&frame->stretchGauge, &frame->bendingGauge});
     });
     // Where paths want bodies, from which they are away only where the sheet could not give way.
-    frame->bodyPoints = mechanics::bodyPointsAt(result.bodies, frame->time);
+    frame->bodyPoints = mechanics::bodyPointsAt(result.bodies, result.isMotion() ? frame->time : 0);
+    if (result.native && result.native->patch) {
+      frame->native = readElementTable(directory / nativeFileName(i), *result.native->patch);
+      frame->nativeDistance = list.number(i, "elements off the sheet [m]");
+    }
     result.frames.push_back(std::move(frame));
   }
 }

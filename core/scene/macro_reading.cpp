@@ -2,13 +2,38 @@
 
 #include "core/scene/body_builder.hpp"
 #include "core/scene/csv_table.hpp"
+#include "core/scene/element_table.hpp"
 #include "core/scene/interlock_head.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/macro_placement.hpp"
+#include "core/scene/native_patch.hpp"
 
 namespace pliant::scene {
 
 using Eigen::Index;
+
+namespace {
+
+void readNative(const std::filesystem::path& directory, const Json& summary, MacroResult& result) {
+  NativeComparison& native = result.native.emplace();
+  native.meanDistance = summary.at("mean_distance");
+  native.largestDistance = summary.at("largest_distance");
+  native.size = summary.at("size");
+  native.compared = summary.at("compared");
+  native.rest.termination = limitTerminationNamed(summary.at("termination").get<std::string>());
+  if (std::filesystem::exists(directory / "native.csv")) {
+    native.patch = std::make_shared<const interlock::UnitCell>(nativePatchOf(*result.cell, result.provenance.options));
+    native.rest.state = readElementTable(directory / "native.csv", *native.patch);
+    return;
+  }
+  const CsvTable elements(directory / "elements.csv");  // of a version that did not write how they turn
+  native.rest.state.positions.resize(3, static_cast<Index>(elements.size()));
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    native.rest.state.positions.col(static_cast<Index>(i)) << elements.number(i, "x [m]"), elements.number(i, "y [m]"),
+        elements.number(i, "z [m]");
+}
+
+}  // namespace
 
 std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem::path& directory) {
   const std::string type = parseJson(readTextFile(directory / "summary.json")).value("type", "");
@@ -64,19 +89,11 @@ std::shared_ptr<MacroResult> readMacro(const Scene& scene, const std::filesystem
     for (std::size_t i = 0; i < deflections.size(); ++i)
       for (int k = 0; k < 3; ++k) result.deflections(k, static_cast<Index>(i)) = deflections[i][k];
     result.bodies = buildBodies(scene);
-    if (result.isMotion()) readMacroMotion(directory, result);
     if (!summary.at("elements").is_null()) result.placed = readPlaced(directory, summary.at("elements"));
     const Json& native = summary.at("native");
-    if (native.is_null()) return;
-    result.native.emplace();
-    const CsvTable elements(directory / "elements.csv");
-    result.native->rest.state.positions.resize(3, static_cast<Index>(elements.size()));
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      result.native->rest.state.positions.col(static_cast<Index>(i)) << elements.number(i, "x [m]"),
-          elements.number(i, "y [m]"), elements.number(i, "z [m]");
-    result.native->meanDistance = native.at("mean_distance");
-    result.native->largestDistance = native.at("largest_distance");
-    result.native->size = native.at("size");
+    if (!native.is_null()) readNative(directory, native, result);
+    if (result.isMotion()) readMacroSteps(directory, result);
+    if (std::filesystem::exists(directory / "frames.csv")) readMacroFrames(directory, result);
   });
 }
 

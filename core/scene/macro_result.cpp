@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/interlock/cell_surface.hpp"
 #include "core/scene/csv.hpp"
 #include "core/scene/json_text.hpp"
 #include "core/scene/result_folder.hpp"
@@ -182,20 +181,9 @@ void MacroResult::write(const std::filesystem::path& directory) const {
   geometry::SurfaceMesh mesh = sheet->mesh;
   mesh.points = positions;
   geometry::writeMesh(mesh, folder.path("sheet.ply"));
-  if (native) {
-    CsvWriter elements;
-    for (const char* column : {"element", "rest_x [m]", "rest_y [m]", "x [m]", "y [m]", "z [m]"}) elements.add(column);
-    elements.endRow();
-    for (std::size_t i = 0; i < native->patch->elements.size(); ++i) {
-      const Eigen::Vector3d& rest = native->patch->elements[i].position;
-      elements.add(static_cast<long>(i)).add(rest.x()).add(rest.y());
-      for (int k = 0; k < 3; ++k) elements.add(native->rest.state.positions(k, static_cast<Eigen::Index>(i)));
-      elements.endRow();
-    }
-    folder.writeFile("elements.csv", elements.text());
-    geometry::writeMesh(cellSurface(*native->patch, native->rest.state, 1, 1, 0.2), folder.path("patch.ply"));
-  }
-  if (isMotion()) writeMotion(folder);
+  if (native) writeNative(folder);
+  if (isMotion()) writeSteps(folder);
+  if (!frames.empty()) writeFrames(folder);
   if (placed) writePlaced(folder);
   folder.writeFile("summary.json", formatJson(summary()));
   folder.commit();

@@ -13,7 +13,7 @@ class ResultFolder;
 
 /// The elements themselves under the same loads, and how far the sheet is from their origins.
 struct NativeComparison {
-  std::shared_ptr<const interlock::UnitCell> patch;
+  std::shared_ptr<const interlock::UnitCell> patch;  ///< null: read from a folder that does not say how elements turn
   interlock::CellEquilibrium rest;
   Eigen::Matrix3Xd deflections;  ///< of the elements that carry loads [m]
   double seconds = 0;
@@ -30,10 +30,12 @@ struct PlacedElements {
 
 /// A sheet at one instant.
 struct MacroFrame {
-  double time = 0;                             ///< [s]
+  double time = 0;                             ///< [s]; of an equilibrium the part of its loads that acts
   Eigen::Matrix3Xd positions;                  ///< of the nodes [m]
   Eigen::Matrix3Xd bodyPoints;                 ///< of the points of all bodies, one body after the other [m]
   Eigen::VectorXd stretchGauge, bendingGauge;  ///< per triangle: 1 at the limit; 0 without one
+  std::optional<interlock::CellState> native;  ///< the native patch under the same part of its loads
+  double nativeDistance = 0;                   ///< mean, of its elements from the sheet [m]
 };
 
 /// One step of time, recorded whether or not its frame is kept.
@@ -54,7 +56,9 @@ class MacroResult final : public InterlockResult {
   Json summary() const override;
   /// summary.json, nodes.csv, triangles.csv, sheet.ply; with the native patch elements.csv and patch.ply; with
   /// placed elements placed_elements.csv (of the lattice, where and how they are turned); of a motion
-  /// steps.csv (a row a step), frames.csv (number and time) and frames/frame_00000.ply ... (exact, in doubles).
+  /// steps.csv (a row a step); of a motion or an equilibrium by steps of its loads frames.csv (number and time, or part
+  /// of the loads) and frames/frame_00000.ply ... (exact, in doubles), with the native patch
+  /// frames/native_00000.csv ... as well, and native.csv of its last state, see elementTable().
   void write(const std::filesystem::path& directory) const override;
   std::vector<std::string> warnings() const override;
 
@@ -77,7 +81,9 @@ class MacroResult final : public InterlockResult {
  private:
   Eigen::VectorXd gaugesOf(int material, const Eigen::VectorXd& gauges) const;
   void addMotion(Json& json) const;
-  void writeMotion(ResultFolder& folder) const;
+  void writeSteps(ResultFolder& folder) const;
+  void writeFrames(ResultFolder& folder) const;
+  void writeNative(ResultFolder& folder) const;
   void writePlaced(ResultFolder& folder) const;
 };
 
@@ -85,7 +91,8 @@ class MacroResult final : public InterlockResult {
 Json placedSummary(const PlacedElements& placed);
 PlacedElements readPlaced(const std::filesystem::path& directory, const Json& summary);
 
-/// Of a folder that a motion was written into: its steps and frames. Throws base::InputError.
-void readMacroMotion(const std::filesystem::path& directory, MacroResult& result);
+/// Of a folder that a motion was written into its steps, and of any with frames these. Throws base::InputError.
+void readMacroSteps(const std::filesystem::path& directory, MacroResult& result);
+void readMacroFrames(const std::filesystem::path& directory, MacroResult& result);
 
 }  // namespace pliant::scene

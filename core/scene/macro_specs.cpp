@@ -180,6 +180,13 @@ std::vector<ParameterSpec> macroStudySpecs() {
       boolean("native", "Whether the patch of elements is computed as well, under the same loads, to compare."),
       false));
   keys.push_back(withDefault(
+      integer(
+          "load_steps", "",
+          "Equal steps in which gravity and loads come, each from where the one before ended; of more than one every "
+          "step is kept as a frame, and the native patch takes the same steps.",
+          1, 1000),
+      1));
+  keys.push_back(withDefault(
       positive(within(number("final_gap", "", "Of the native patch: mean gap that is left, over the wire radius.",
                              dimensions::none),
                       1e-9, 0.1)),

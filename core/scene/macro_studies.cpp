@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/interlock/patch_equilibrium.hpp"
+#include "core/base/units.hpp"
 #include "core/scene/input_error_location.hpp"
 #include "core/scene/macro_placement.hpp"
 #include "core/scene/macro_study.hpp"
+#include "core/scene/native_patch.hpp"
 
 namespace pliant::scene {
 
 namespace {
 
 using base::TerminationType;
-using Eigen::Index;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 class MacroEquilibriumStudy final : public MacroStudy {
@@ -43,25 +42,14 @@ class MacroEquilibriumStudy final : public MacroStudy {
     const interlock::MacroLoads loads = builder_.loads(sheet, &result->loaded);
     const interlock::Vector start = builder_.start(sheet);
     result->clamped = loads.clamped;
-    const double settled = options_["native"] ? 0.8 : options_["elements"] ? begun() + 0.1 : 1;
-    context.setRange(begun(), settled);
-    result->state = locate(place_, [&] { return simulation.equilibrium(loads, &start, context); });
-    const Eigen::Matrix3Xd from = start.reshaped(3, sheet.mesh.points.cols());
-    result->deflections = moved(result->state.positions.reshaped(3, sheet.mesh.points.cols()), from, result->loaded);
-    TerminationType termination = result->state.report.termination;
-    if (options_["native"] && termination != TerminationType::cancelled) {
-      context.setRange(0.8, options_["elements"] ? 0.9 : 1);
-      result->native = nativePatch(context);
-      compare(sheet.mesh, result->state.positions, *result->native);
-      if (termination == TerminationType::converged) termination = result->native->rest.termination;
-    }
-    std::string message = result->state.report.message;
+    const double settled = options_["elements"] ? (options_["native"] ? 0.9 : begun() + 0.1) : 1;
+    std::vector<interlock::Vector> way{start};
+    auto [termination, message] = load(simulation, loads, settled, way, *result, context, [&](MacroResult& part) {
+      finish(part, TerminationType::converged, "", watch);
+      if (observe) observe(std::make_shared<const MacroResult>(part));
+    });
     if (options_["elements"] && termination == TerminationType::converged) {
-      context.setRange(options_["native"] ? 0.9 : settled, 1);
-      std::vector<interlock::Vector> way = std::move(result->state.path);
-      result->state.path.clear();
-      if (way.empty()) way.push_back(start);
-      way.push_back(result->state.positions);
+      context.setRange(settled, 1);
       const PlacementOutcome outcome = placeElements(way, options_, place_, *result, context);
       termination = outcome.termination;
       message = outcome.message;
@@ -82,89 +70,87 @@ class MacroEquilibriumStudy final : public MacroStudy {
       throw base::InputError(place_, "A native patch meets no bodies, and starts where its sheet rests.");
   }
 
+  /// Lets the loads come, up to the progress `settled`; `way` gets where the sheet was, and `hand` what there is of the
+  /// result between two steps.
+  std::pair<TerminationType, std::string> load(const interlock::MacroSimulation& simulation,
+                                               const interlock::MacroLoads& loads, double settled,
+                                               std::vector<interlock::Vector>& way, MacroResult& result,
+                                               base::ExecutionContext& context,
+                                               const std::function<void(MacroResult&)>& hand) const {
+    const geometry::SurfaceMesh& mesh = result.sheet->mesh;
+    const interlock::Vector start = way.front();
+    std::optional<NativePatch> native;
+    if (options_["native"]) native.emplace(*cell_, options_, place_, equilibriumOptions());
+    const int steps = options_["load_steps"];
+    if (steps > 1) {
+      judgeNothing(result);
+      result.state.positions = start;
+      if (native) result.native = native->comparison();
+      addFrame(0, result);
+    }
+    for (int step = 1; step <= steps; ++step) {
+      const double part = static_cast<double>(step) / steps;
+      const double before = begun() + (settled - begun()) * (step - 1) / steps, length = (settled - begun()) / steps;
+      const double between = native ? 0.7 : 1;  // of the step: the sheet, then the elements
+      context.setRange(before, before + between * length);
+      interlock::MacroLoads present = loads;
+      present.force *= part;
+      present.gravity *= part;
+      const interlock::Vector from = way.back();
+      result.state = locate(place_, [&] { return simulation.equilibrium(present, &from, context); });
+      TerminationType termination = result.state.report.termination;
+      std::string message = result.state.report.message;
+      for (std::size_t i = 1; i < result.state.path.size(); ++i) way.push_back(result.state.path[i]);
+      way.push_back(result.state.positions);
+      result.state.path.clear();
+      result.deflections = columns(result.state.positions - start)(Eigen::all, result.loaded);
+      if (native && termination != TerminationType::cancelled) {
+        context.setRange(before + between * length, before + length);
+        native->load(part, mesh, result.state.positions, context);
+        result.native = native->comparison();
+        if (termination == TerminationType::converged) termination = result.native->rest.termination;
+        if (message.empty()) message = result.native->rest.message;
+      }
+      if (steps > 1) {
+        addFrame(part, result);
+        result.state.work = workOf(simulation, present, result.state.positions - start);
+        if (termination != TerminationType::converged)
+          message = "At " + base::formatQuantity(100 * part, {}) + " % of the loads: " + message;
+        else if (step < steps)
+          hand(result);
+      }
+      if (termination != TerminationType::converged || step == steps) return {termination, message};
+    }
+    return {TerminationType::converged, ""};
+  }
+
+  static Eigen::Matrix3Xd columns(const interlock::Vector& coordinates) {
+    return coordinates.reshaped(3, coordinates.size() / 3);
+  }
+
+  static void addFrame(double part, MacroResult& result) {
+    auto frame = std::make_shared<MacroFrame>();
+    frame->time = part;
+    frame->positions = columns(result.state.positions);
+    frame->bodyPoints = mechanics::bodyPointsAt(result.bodies, 0);
+    frame->stretchGauge = result.state.stretchGauge;
+    frame->bendingGauge = result.state.bendingGauge;
+    if (result.native) {
+      frame->native = result.native->rest.state;
+      frame->nativeDistance = result.native->meanDistance;
+    }
+    result.frames.push_back(std::move(frame));
+  }
+
+  /// Of all loads along the way from rest [J].
+  static double workOf(const interlock::MacroSimulation& simulation, const interlock::MacroLoads& loads,
+                       const interlock::Vector& moved) {
+    const Vector3d weighed = columns(moved) * simulation.masses();
+    return loads.force.dot(moved) + loads.gravity.dot(weighed);
+  }
+
   static Json macroRestPlacement() {
     return {{"position", {0.0, 0.0, 0.0}}, {"axis", {0.0, 0.0, 1.0}}, {"angle", 0.0}};
-  }
-
-  static Eigen::Matrix3Xd moved(const Eigen::Matrix3Xd& places, const Eigen::Matrix3Xd& rest,
-                                const std::vector<int>& which) {
-    return places(Eigen::all, which) - rest(Eigen::all, which);
-  }
-
-  MacroResult::Native nativePatch(base::ExecutionContext& context) const {
-    const base::Stopwatch watch;
-    interlock::PatchOutline patchOutline;
-    const std::string shape = options_["shape"];
-    patchOutline.centre = planeOf(options_["centre"]);
-    constexpr double rim = 1 + 1e-6;  // elements on it belong to the patch
-    if (shape == "rectangle") {
-      patchOutline.kind = interlock::PatchOutline::Kind::rectangle;
-      patchOutline.size = rim * planeOf(options_["size"]);
-    } else {
-      patchOutline.radius = rim * options_["radius"].get<double>();
-    }
-    MacroResult::Native native;
-    native.patch = locate(
-        place_, [&] { return std::make_shared<const interlock::UnitCell>(interlock::cutPatch(*cell_, patchOutline)); });
-    Eigen::Matrix3Xd rest(3, static_cast<Index>(native.patch->elements.size()));
-    for (Index i = 0; i < rest.cols(); ++i) rest.col(i) = native.patch->elements[static_cast<std::size_t>(i)].position;
-    for (Index i = 0; i < rest.cols(); ++i)
-      native.size = std::max(native.size, (rest.colwise() - rest.col(i)).colwise().norm().maxCoeff());
-    interlock::EquilibriumOptions equilibrium = equilibriumOptions();
-    equilibrium.looseTolerance = 1;
-    equilibrium.maximumIterations = 5000;
-    const interlock::PatchSolver solver(*native.patch, equilibrium);
-    interlock::PatchLoads loads;
-    // The same weight an area as the sheet has.
-    loads.forces = interlock::weightsOf(*native.patch, nativeDensity(), spaceOf(options_["gravity"]));
-    std::vector<int> loaded;
-    for (const Json& load : options_["loads"]) {
-      loaded.push_back(nearestOf(rest, planeOf(load["point"])));
-      loads.forces.push_back({loaded.back(), spaceOf(load["force"]), Vector3d::Zero()});
-    }
-    for (const Json& clamp : options_["clamps"])
-      for (const int element : nodesWithin(rest, clamp))
-        if (std::find(loads.clamped.begin(), loads.clamped.end(), element) == loads.clamped.end())
-          loads.clamped.push_back(element);
-    native.rest = solver.solve(interlock::restState(*native.patch), loads, &context);
-    native.deflections = moved(native.rest.state.positions, rest, loaded);
-    native.seconds = watch.seconds();
-    return native;
-  }
-
-  /// With which the elements weigh as much an area as the sheet.
-  double nativeDensity() const {
-    double volume = 0;
-    for (const interlock::InterlockingElement& element : cell_->elements)
-      volume += interlock::bodyMass(cell_->shapes[static_cast<std::size_t>(element.shape)]).volume;
-    const double area = std::abs(cell_->lattice.determinant());
-    const double thickness =
-        options_.contains("thickness") ? options_["thickness"].get<double>() : MacroBuilder::heightOf(*cell_);
-    return options_["density"].get<double>() * thickness * area / volume;
-  }
-
-  /// Where the sheet is at the elements' places, and how far from them.
-  static void compare(const geometry::SurfaceMesh& mesh, const interlock::Vector& positions,
-                      MacroResult::Native& native) {
-    for (std::size_t i = 0; i < native.patch->elements.size(); ++i) {
-      const Vector2d point = native.patch->elements[i].position.head<2>();
-      for (const auto& [a, b, c] : mesh.triangles) {
-        Eigen::Matrix2d edges;
-        edges << (mesh.points.col(b) - mesh.points.col(a)).head<2>(),
-            (mesh.points.col(c) - mesh.points.col(a)).head<2>();
-        const Vector2d shares = edges.inverse() * (point - mesh.points.col(a).head<2>());
-        constexpr double rounding = 1e-6;
-        if (shares.minCoeff() < -rounding || shares.sum() > 1 + rounding) continue;
-        const auto at = [&](int node) -> Vector3d { return positions.segment<3>(3 * Index{node}); };
-        const Vector3d place = (1 - shares.sum()) * at(a) + shares[0] * at(b) + shares[1] * at(c);
-        const double distance = (place - native.rest.state.positions.col(static_cast<Index>(i))).norm();
-        native.meanDistance += distance;
-        native.largestDistance = std::max(native.largestDistance, distance);
-        ++native.compared;
-        break;
-      }
-    }
-    if (native.compared > 0) native.meanDistance /= native.compared;
   }
 };
 
