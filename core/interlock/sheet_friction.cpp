@@ -1,5 +1,6 @@
 #include "core/interlock/sheet_friction.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace pliant::interlock {

@@ -1,6 +1,7 @@
 #include "core/mechanics/contact_friction.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cassert>
 
 #include "core/mechanics/checks.hpp"
