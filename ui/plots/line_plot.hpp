@@ -40,7 +40,7 @@ class LinePlot final : public QWidget {
   void setChart(LineChart chart);
   /// A sentence instead of lines.
   void setNote(const QString& sentence);
-  /// Marks a place of the x-axis.
+  /// Marks a place of the x-axis; NaN: none.
   void setInstant(double x);
   void fit();
 
