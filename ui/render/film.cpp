@@ -175,8 +175,8 @@ std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& r
   view.setField(options.macroField);
   view.setSelectedTriangle(options.selectedTriangle);
   return filmFrames(
-      view, target, result->frames, result->isMotion() ? FrameClock::seconds : FrameClock::loads, true, [&](int frame) { view.setFrame(frame); }, options, file,
-      context);
+      view, target, result->frames, result->isMotion() ? FrameClock::seconds : FrameClock::loads, true,
+      [&](int frame) { view.setFrame(frame); }, options, file, context);
 }
 
 std::optional<Film> filmMotion(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,
