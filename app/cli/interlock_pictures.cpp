@@ -22,7 +22,7 @@
 #include "app/cli/picture_size.hpp"
 #include "ui/render/boundary_picture.hpp"
 #include "ui/render/chart_picture.hpp"
-#include "ui/render/macro_view.hpp"
+#include "ui/render/macro_picture.hpp"
 #include "ui/render/polar_curves_picture.hpp"
 #endif
 
@@ -96,9 +96,11 @@ std::optional<ExitStatus> exportBoundary(const MotionOptions& options) {
 std::shared_ptr<const scene::MacroResult> findSheetMotion(const MotionOptions& options) {
   const auto scene = scene::Scene::load(options.scene);
   const auto found = findInterlock(scene, options);
-  if (!found || found->type() != "macro_motion") return nullptr;
+  if (!found || (found->type() != "macro_motion" && found->type() != "macro_equilibrium")) return nullptr;
+  const auto sheet = scene::readMacro(scene, found->folder);
+  if (sheet->frames.empty()) return nullptr;
   warnOfChange(scene, *found);
-  return scene::readMacro(scene, found->folder);
+  return sheet;
 }
 
 #ifdef PLIANT_HAS_RENDERER
@@ -176,7 +178,7 @@ render::Image macroImage(const scene::Scene& scene, const InterlockFolder& found
   const auto result = scene::readMacro(scene, found.folder);
   std::optional<double> time;
   if (!options.time.empty()) {
-    if (!result->isMotion()) throw InputError("--time", "A sheet at rest has no time.");
+    if (result->frames.empty()) throw InputError("--time", "A sheet at rest has no time.");
     time = base::parseQuantity(options.time, base::dimensions::time);
   }
   picture.caption += '\n' + render::macroCaption(*result);

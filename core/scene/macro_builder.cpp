@@ -90,7 +90,7 @@ interlock::MacroSheet MacroBuilder::sheet(const interlock::UnitCell& cell, doubl
   std::vector<interlock::UnitCell> cells;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const std::string place = childPointer(place_ + "/regions", i);
-    for (const int triangle : locate(place, [&] { return trianglesOf(regions[i], sheet.mesh); })) {
+    for (const int triangle : locate(place, [&] { return regionTriangles(regions[i], sheet.mesh); })) {
       sheet.materialOf[static_cast<std::size_t>(triangle)] = static_cast<int>(i) + 1;
       sheet.angleOf[static_cast<std::size_t>(triangle)] = regions[i]["angle"];
     }
@@ -106,7 +106,7 @@ interlock::MacroSheet MacroBuilder::sheet(const interlock::UnitCell& cell, doubl
   return sheet;
 }
 
-std::vector<int> MacroBuilder::trianglesOf(const Json& region, const geometry::SurfaceMesh& mesh) const {
+std::vector<int> regionTriangles(const Json& region, const geometry::SurfaceMesh& mesh) {
   const int count = static_cast<int>(mesh.triangles.size());
   std::vector<int> found;
   if (region.contains("triangles")) {

@@ -30,9 +30,6 @@ class MacroBuilder {
                                     base::ExecutionContext& context) const;
   std::shared_ptr<const mechanics::AdmissibleStrainSet> readSet(const Json& keys, const char* key,
                                                                 const std::string& place) const;
-  /// Triangles of a region.
-  std::vector<int> trianglesOf(const Json& region, const geometry::SurfaceMesh& mesh) const;
-
   const Scene& scene_;
   const Json& options_;
   std::string place_;
@@ -42,6 +39,9 @@ class MacroBuilder {
 int nearestOf(const Eigen::Matrix3Xd& places, const Eigen::Vector2d& point);
 /// All within the "radius" of an entry's "point", or else the nearest.
 std::vector<int> nodesWithin(const Eigen::Matrix3Xd& places, const Json& entry);
+/// Triangles of a region whose keys have all their values. Throws base::InputError (location empty) for one that has
+/// none, or names some that are not there.
+std::vector<int> regionTriangles(const Json& region, const geometry::SurfaceMesh& mesh);
 /// From a list of numbers.
 Eigen::Vector3d spaceOf(const Json& list);
 Eigen::Vector2d planeOf(const Json& list);

@@ -1,5 +1,7 @@
 #include "core/scene/macro_strains.hpp"
 
+#include <Eigen/Geometry>
+
 namespace pliant::scene {
 
 namespace {
@@ -39,8 +41,24 @@ std::vector<int> trianglesLike(const MacroResult& result, int triangle) {
   return like;
 }
 
-Eigen::Matrix3Xd strainPlaces(const MacroResult& result, SheetLimit limit, const std::vector<int>& triangles) {
-  const mechanics::SheetStrains& strains = result.state.strains;
+SheetMoment sheetMoment(const MacroResult& result, int frame) {
+  if (frame < 0 || frame >= static_cast<int>(result.frames.size()))
+    return {result.state.strains, result.state.stretchGauge, result.state.bendingGauge};
+  const interlock::MacroSheet& sheet = *result.sheet;
+  std::vector<mechanics::LimitedTriangle> triangles;
+  for (std::size_t t = 0; t < sheet.mesh.triangles.size(); ++t) {
+    mechanics::LimitedTriangle& triangle = triangles.emplace_back();
+    triangle.nodes = sheet.mesh.triangles[t];
+    const Eigen::Rotation2Dd toMaterial(sheet.angleOf.empty() ? 0 : -sheet.angleOf[t]);
+    for (int i = 0; i < 3; ++i)
+      triangle.rest.col(i) = toMaterial * sheet.mesh.points.col(triangle.nodes[static_cast<std::size_t>(i)]).head<2>();
+  }
+  const MacroFrame& shown = *result.frames[static_cast<std::size_t>(frame)];
+  return {mechanics::sheetStrains(triangles, shown.positions.reshaped()), shown.stretchGauge, shown.bendingGauge};
+}
+
+Eigen::Matrix3Xd strainPlaces(const SheetMoment& moment, SheetLimit limit, const std::vector<int>& triangles) {
+  const mechanics::SheetStrains& strains = moment.strains;
   const Eigen::Matrix3Xd& all = limit == SheetLimit::stretch ? strains.stretch : strains.curvature;
   return tensorComponents(all(Eigen::all, triangles));
 }

@@ -18,8 +18,17 @@ std::shared_ptr<const BoundarySurface> materialBoundary(const MacroResult& resul
 /// Which triangles are of the same material as this one.
 std::vector<int> trianglesLike(const MacroResult& result, int triangle);
 
+/// What the triangles of a sheet do at one moment.
+struct SheetMoment {
+  mechanics::SheetStrains strains;
+  Eigen::VectorXd stretchGauge, bendingGauge;  ///< per triangle: 1 at the limit; 0 without one
+};
+
+/// In the frame with this number; where there is none in the last state.
+SheetMoment sheetMoment(const MacroResult& result, int frame = -1);
+
 /// Where these triangles stand in that space: 3 x triangles.
-Eigen::Matrix3Xd strainPlaces(const MacroResult& result, SheetLimit limit, const std::vector<int>& triangles);
+Eigen::Matrix3Xd strainPlaces(const SheetMoment& moment, SheetLimit limit, const std::vector<int>& triangles);
 
 /// How far the nodes under loads have moved, at most [m]; without loads the node that has moved farthest.
 double largestDeflection(const MacroResult& result);

@@ -21,23 +21,10 @@ namespace pliant::panels {
 
 namespace {
 
-using scene::Json;
 using scene::SheetLimit;
 
 constexpr double setOpacity = 0.35;
-
-/// The largest first, over the share of all triangles that are as near or nearer.
-plots::PlotLine sortedLine(const QString& name, Eigen::VectorXd gauges, int group) {
-  std::sort(gauges.begin(), gauges.end(), std::greater<>());
-  plots::PlotLine line;
-  line.name = name;
-  line.group = group;
-  for (Eigen::Index i = 0; i < gauges.size(); ++i) {
-    line.x.push_back(100 * static_cast<double>(i + 1) / static_cast<double>(gauges.size()));
-    line.y.push_back(gauges[i]);
-  }
-  return line;
-}
+constexpr int frameDelay = 100;  ///< of plots behind a motion that plays [ms]
 
 }  // namespace
 
@@ -53,6 +40,17 @@ SheetPanel::SheetPanel(document::Document& document, QWidget* parent)
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 1);
   setPlot(split);
+  frameTimer_.setSingleShot(true);
+  frameTimer_.setInterval(frameDelay);
+  connect(&frameTimer_, &QTimer::timeout, this, [this] {
+    if (!result_ || !isVisible()) return;
+    moment_ = scene::sheetMoment(*result_, frame_);
+    if (plots_->currentIndex() == nearnessPlot) refreshPlot();
+    refreshSpace();
+  });
+  connect(plot_, &plots::LinePlot::placeChosen, this, [this](double x) {
+    if (plots_->currentIndex() == motionPlot) Q_EMIT instantChosen(x / instantScale());
+  });
   setMinimumWidth(320);  // of its own, so that the docks beside it keep their width
 }
 
@@ -70,10 +68,27 @@ void SheetPanel::makeControls() {
   connect(fields_, &QComboBox::activated, this, &SheetPanel::viewChanged);
   plots_ = combo(tr("What the plot shows"), {tr("Nearness to limits"), tr("Deflection of all sheets")});
   connect(plots_, &QComboBox::activated, this, &SheetPanel::refreshPlot);
+  native_ = new QToolButton;
+  native_->setText(tr("Native"));
+  native_->setToolTip(tr("The elements that were computed under the same loads, beside the sheet"));
+  native_->setCheckable(true);
+  native_->setChecked(true);
+  native_->setFixedHeight(28);
+  switches()->addWidget(native_);
+  connect(native_, &QToolButton::toggled, this, &SheetPanel::viewChanged);
+  auto* outlines = addButton(tr("Outline"), tr("Cut the piece as a disk, a square or a hexagon, or as a file says"));
+  auto* outlineMenu = new QMenu(outlines);
+  outlineMenu->addAction(tr("Disk"), this, [this] { setOutline(SheetOutline::disk); });
+  outlineMenu->addAction(tr("Square"), this, [this] { setOutline(SheetOutline::square); });
+  outlineMenu->addAction(tr("Hexagon"), this, [this] { setOutline(SheetOutline::hexagon); });
+  outlineMenu->addAction(tr("From a file…"), this, &SheetPanel::chooseOutlineFile);
+  outlines->setMenu(outlineMenu);
+  outlines->setPopupMode(QToolButton::InstantPopup);
   auto* families = addButton(tr("Series"), tr("Run this sheet finer, or with a stiffer base, to compare"));
   auto* menu = new QMenu(families);
   menu->addAction(tr("4 and 16 times as many triangles (Fig. 4.10)"), this, [this] { addFamily(Family::refinement); });
   menu->addAction(tr("4 and 16 times Young's modulus (Fig. 4.11)"), this, [this] { addFamily(Family::youngModulus); });
+  menu->addAction(tr("Loads in 10 steps, to be watched"), this, &SheetPanel::addLoadSteps);
   families->setMenu(menu);
   families->setPopupMode(QToolButton::InstantPopup);
 }
@@ -103,6 +118,8 @@ QWidget* SheetPanel::makeSpace() {
   click(Clicks::read, tr("Read"), tr("A click at the sheet reads a triangle out"));
   click(Clicks::clamp, tr("Clamp"), tr("A click at the sheet clamps a node, or frees it again"));
   click(Clicks::load, tr("Load"), tr("A click at the sheet puts this force on a node, or takes it away again"));
+  click(Clicks::paint, tr("Paint"),
+        tr("A drag over the sheet gives its triangles the material beside; with Ctrl it wipes that off"));
   clicks_->button(0)->setChecked(true);
   connect(clicks_, &QButtonGroup::idToggled, this, [this] { Q_EMIT viewChanged(); });
   force_ = new QDoubleSpinBox;
@@ -114,6 +131,16 @@ QWidget* SheetPanel::makeSpace() {
   force_->setToolTip(tr("The force of a load that a click adds; below 0 it pulls down"));
   force_->setFixedHeight(28);
   row->addWidget(force_);
+  paints_ = new QComboBox;
+  paints_->setToolTip(tr("The material that is painted"));
+  paints_->setFixedHeight(28);
+  row->addWidget(paints_);
+  const auto fit = [this] {
+    force_->setVisible(clicks() != Clicks::paint);
+    paints_->setVisible(clicks() == Clicks::paint);
+  };
+  connect(clicks_, &QButtonGroup::idToggled, this, fit);
+  fit();
   spaceViewport_ = new viewport::Viewport;
   spaceViewport_->setAccessibleName(tr("Strains of the triangles within their limits"));
   render::BoundaryStyle style;
@@ -145,6 +172,8 @@ render::MacroField SheetPanel::field() const {
                        : render::MacroField::nearest;
 }
 
+bool SheetPanel::showsNative() const { return native_->isChecked(); }
+
 bool SheetPanel::showsElements() const { return fields_->currentIndex() == 3; }
 
 SheetPanel::Clicks SheetPanel::clicks() const { return static_cast<Clicks>(clicks_->checkedId()); }
@@ -163,11 +192,20 @@ QString SheetPanel::waitingNote(const QString& study) const {
 }
 
 bool SheetPanel::present(const document::StudyState* study) {
+  if (study) fillPaints();
   const auto result = std::dynamic_pointer_cast<const scene::MacroResult>(study ? study->result : nullptr);
   if (result != result_) {
     if (!result || (triangle_ && *triangle_ >= static_cast<int>(result->sheet->mesh.triangles.size())))
       triangle_.reset();
+    if (!result || !result_ || result->sheet != result_->sheet) frame_ = -1;
     result_ = result;
+    if (result_) moment_ = scene::sheetMoment(*result_, frame_);
+    native_->setVisible(result_ && result_->native && result_->native->patch);
+    const bool moves = result_ && !result_->frames.empty(), offered = plots_->count() > motionPlot;
+    if (!moves && offered) plots_->removeItem(motionPlot);
+    if (moves && !offered) plots_->addItem({});
+    if (moves)
+      plots_->setItemText(motionPlot, result_->isMotion() ? tr("Nearness over time") : tr("Nearness over loads"));
     refreshSpace();
   }
   refreshPlot();
@@ -176,47 +214,12 @@ bool SheetPanel::present(const document::StudyState* study) {
   return result_ && result_->state.positions.size() > 0;
 }
 
-void SheetPanel::refreshPlot() {
-  if (!result_) return;
-  plots::LineChart chart;
-  if (plots_->currentIndex() == 0) {
-    chart.xLabel = tr("share of triangles [%]");
-    chart.yLabel = tr("strain / limit");
-    chart.legendBelow = true;
-    chart.fromZero = true;
-    const interlock::MacroState& state = result_->state;
-    if (state.stretchGauge.size() > 0) chart.lines.push_back(sortedLine(tr("stretch"), state.stretchGauge, 0));
-    if (state.bendingGauge.size() > 0 && state.bendingGauge.maxCoeff() > 0)
-      chart.lines.push_back(sortedLine(tr("bending"), state.bendingGauge, 1));
-    plot_->setChart(std::move(chart));
-    return;
-  }
-  std::vector<std::array<double, 3>> sheets;  // triangles, Young's modulus, deflection
-  for (const document::StudyState& study : document_.studies())
-    if (const auto sheet = std::dynamic_pointer_cast<const scene::MacroResult>(study.result);
-        sheet && sheet->state.positions.size() > 0)
-      sheets.push_back({static_cast<double>(sheet->sheet->mesh.triangles.size()),
-                        sheet->sheet->materials.front().youngModulus, scene::largestDeflection(*sheet)});
-  const auto varies = [&](std::size_t key) {
-    return std::any_of(sheets.begin(), sheets.end(), [&](const auto& sheet) { return sheet[key] != sheets[0][key]; });
-  };
-  const std::size_t key = varies(0) || !varies(1) ? 0 : 1;
-  if (!varies(key)) {
-    plot_->setNote(tr("Sheets that differ are compared here: see Series."));
-    return;
-  }
-  std::sort(sheets.begin(), sheets.end(), [key](const auto& a, const auto& b) { return a[key] < b[key]; });
-  chart.xLabel = key == 0 ? tr("triangles") : tr("Young's modulus of the base [Pa]");
-  chart.yLabel = tr("largest deflection [mm]");
-  chart.fromZero = true;
-  plots::PlotLine line;
-  line.dots = true;
-  for (const auto& sheet : sheets) {
-    line.x.push_back(sheet[key]);
-    line.y.push_back(1e3 * sheet[2]);
-  }
-  chart.lines.push_back(std::move(line));
-  plot_->setChart(std::move(chart));
+void SheetPanel::setFrame(int frame, double seconds) {
+  instant_ = seconds;
+  if (plots_->currentIndex() == motionPlot) plot_->setInstant(seconds * instantScale());
+  if (frame == frame_) return;
+  frame_ = frame;
+  if (!frameTimer_.isActive()) frameTimer_.start();
 }
 
 void SheetPanel::refreshSpace() {
@@ -226,9 +229,9 @@ void SheetPanel::refreshSpace() {
   space_->setSurface(surface_);
   std::optional<int> ringed;
   Eigen::Matrix3Xd places(3, 0);
-  if (surface_ && result_->state.strains.stretch.cols() > 0) {
+  if (surface_ && moment_.strains.stretch.cols() > 0) {
     const std::vector<int> triangles = scene::trianglesLike(*result_, shown);
-    places = scene::strainPlaces(*result_, limit, triangles);
+    places = scene::strainPlaces(moment_, limit, triangles);
     if (triangle_)
       ringed = static_cast<int>(std::find(triangles.begin(), triangles.end(), *triangle_) - triangles.begin());
   }
@@ -240,8 +243,7 @@ void SheetPanel::refreshSpace() {
   } else {
     const auto index = static_cast<Eigen::Index>(*triangle_);
     const Eigen::Vector3d place = places.col(*ringed);
-    const double gauge =
-        limit == SheetLimit::stretch ? result_->state.stretchGauge[index] : result_->state.bendingGauge[index];
+    const double gauge = limit == SheetLimit::stretch ? moment_.stretchGauge[index] : moment_.bendingGauge[index];
     readout_->setText(tr("Triangle %1:  %2 % of the way to its limit\n%3")
                           .arg(*triangle_)
                           .arg(100 * gauge, 0, 'f', 1)
@@ -249,85 +251,6 @@ void SheetPanel::refreshSpace() {
                                                             : QString::fromStdString(render::curvatureText(place))));
   }
   Q_EMIT viewChanged();
-}
-
-std::string SheetPanel::pointer(const char* key) const {
-  const auto& studies = document_.studies();
-  const auto found =
-      std::find_if(studies.begin(), studies.end(), [&](const auto& each) { return each.name == study(); });
-  return "/studies/" + std::to_string(found - studies.begin()) + "/" + key;
-}
-
-void SheetPanel::take(int picked) {
-  if (!result_) return;
-  if (clicks() == Clicks::read) {
-    triangle_ = picked < 0 ? std::nullopt : std::optional(picked);
-    refreshSpace();
-  } else if (picked >= 0 && clicks() == Clicks::clamp) {
-    toggleAt(picked, "clamps", Json::object(), tr("clamps of %1").arg(QString::fromStdString(study())));
-  } else if (picked >= 0) {
-    toggleAt(
-        picked, "loads", {{"force", {0, 0, force_->value()}}}, tr("loads of %1").arg(QString::fromStdString(study())));
-  }
-}
-
-void SheetPanel::toggleAt(int node, const char* key, const Json& entry, const QString& text) {
-  const auto& places = result_->sheet->mesh.points;
-  const auto nodeAt = [&](const Json& place) {
-    Eigen::Index nearest = 0;
-    (places.topRows<2>().colwise() - Eigen::Vector2d(place[0], place[1])).colwise().squaredNorm().minCoeff(&nearest);
-    return static_cast<int>(nearest);
-  };
-  Json entries = Json::array();
-  bool taken = false;
-  for (const Json& each : document_.valueAt(pointer(key))) {
-    if (nodeAt(each["point"]) == node)
-      taken = true;
-    else
-      entries.push_back(each);
-  }
-  if (!taken) {
-    Json added = entry;
-    added["point"] = {places(0, node), places(1, node)};
-    entries.push_back(added);
-  }
-  document_.setValue(pointer(key), entries, text);
-}
-
-void SheetPanel::addFamily(Family family) {
-  const std::string first = study();
-  const bool finer = family == Family::refinement;
-  Json studies = document_.scene().json()["studies"];
-  const auto entry =
-      std::find_if(studies.begin(), studies.end(), [&](const Json& each) { return each["name"] == first; });
-  if (entry == studies.end()) return;
-  const Json pattern = *entry;
-  const Json normalized = document_.valueAt(pointer(finer ? "rings" : "young_modulus"));
-  if (finer && pattern.value("shape", "disk") == "mesh") {
-    document_.raise(base::Severity::warning, tr("A mesh from a file is not made finer here."));
-    return;
-  }
-  std::vector<std::string> names{first};
-  bool changed = false;
-  for (const int factor : {4, 16}) {
-    const std::string name = first + " " + std::to_string(factor) + (finer ? "x triangles" : "x stiffness");
-    names.push_back(name);
-    if (document_.study(name)) continue;
-    Json made = pattern;
-    made["name"] = name;
-    made["native"] = false;
-    if (finer)
-      made["rings"] = normalized.get<int>() * (factor == 4 ? 2 : 4);
-    else
-      made["young_modulus"] = normalized.get<double>() * factor;
-    studies.push_back(made);
-    changed = true;
-  }
-  if (changed && !document_.setValue("/studies", studies, tr("a series of %1").arg(QString::fromStdString(first))))
-    return;
-  plots_->setCurrentIndex(1);
-  setStudy(first);
-  Q_EMIT studiesRequested(names);
 }
 
 void SheetPanel::exportTo(const QString& file) {

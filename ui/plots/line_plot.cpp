@@ -70,9 +70,10 @@ void LinePlot::setInstant(double x) {
   shownInstant_ = x;
   instantSet_ = true;
   if (!instant_ || pages_->currentWidget() != plot_) return;
-  instant_->point1->setCoords(x, 0);
-  instant_->point2->setCoords(x, 1);
-  instant_->setVisible(true);
+  const bool marked = std::isfinite(x);
+  instant_->point1->setCoords(marked ? x : 0, 0);
+  instant_->point2->setCoords(marked ? x : 0, 1);
+  instant_->setVisible(marked);
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 

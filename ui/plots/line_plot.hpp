@@ -45,7 +45,7 @@ class LinePlot final : public QWidget {
   void setChart(LineChart chart);
   /// A sentence instead of lines.
   void setNote(const QString& sentence);
-  /// Marks a place of the x-axis.
+  /// Marks a place of the x-axis; NaN: none.
   void setInstant(double x);
   /// What is said of an item under the pointer.
   void setItemText(std::function<QString(int item)> text) { itemText_ = std::move(text); }

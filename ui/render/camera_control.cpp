@@ -146,6 +146,7 @@ void CameraControl::zoom(double factor, double x, double y) {
   vtkCamera* camera = renderer_->GetActiveCamera();
   const int* size = renderer_->GetSize();
   if (size[1] <= 0) return;
+  if (x >= size[0]) x -= size[0];
   // The point of the focal plane under the pointer is the fixed point of the enlargement.
   const double pixel = 2.0 * camera->GetDistance() * std::tan(0.5 * viewAngle * std::numbers::pi / 180.0) / size[1];
   const Eigen::Vector3d up = vectorOf(camera->GetViewUp()).normalized();
@@ -172,6 +173,24 @@ std::optional<Eigen::Vector3d> CameraControl::pointBeside(const Eigen::Vector3d&
   const Eigen::Vector3d up = vectorOf(camera->GetViewUp()).normalized();
   const Eigen::Vector3d right = forward.cross(up).normalized();
   return eye + depth * forward + pixel * ((x - 0.5 * size[0]) * right + (0.5 * size[1] - y) * up);
+}
+
+std::vector<char> CameraControl::inView(const Points& points, double slack) const {
+  const Eigen::Matrix4d seen = projection();
+  const int* size = renderer_->GetSize();
+  const double room = slack / pixelSize();
+  std::vector<char> inside(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const auto pixel = seenAt(seen, size, points.col(i));
+    inside[static_cast<std::size_t>(i)] =
+        pixel && pixel->x() > -room && pixel->y() > -room && pixel->x() < size[0] + room && pixel->y() < size[1] + room;
+  }
+  return inside;
+}
+
+double CameraControl::pixelSize() const {
+  return 2.0 * renderer_->GetActiveCamera()->GetDistance() * std::tan(0.5 * viewAngle * std::numbers::pi / 180.0) /
+         std::max(1, renderer_->GetSize()[1]);
 }
 
 std::optional<int> CameraControl::nearestPoint(const Points& points, double x, double y, double radius) const {

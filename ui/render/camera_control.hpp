@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "ui/render/primitives.hpp"
 #include "ui/render/view.hpp"
@@ -29,11 +30,16 @@ class CameraControl {
   void setPose(const CameraPose& pose);
   void orbit(double dx, double dy);
   void pan(double dx, double dy);
+  /// A place right of the window is one in a second one beside it, as wide, with the same camera.
   void zoom(double factor, double x, double y);
   /// Where a point is seen, from the bottom left of the window; none if it is behind the camera.
   std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3d& point) const;
   /// What is seen at the pixel (x, y) in the plane through `point` that faces the camera; none if it is behind it.
   std::optional<Eigen::Vector3d> pointBeside(const Eigen::Vector3d& point, double x, double y) const;
+  /// Whether each point is in the window, or a distance beside it [m].
+  std::vector<char> inView(const Points& points, double slack) const;
+  /// Of a pixel in the plane that is looked at [m].
+  double pixelSize() const;
   std::optional<int> nearestPoint(const Points& points, double x, double y, double radius) const;
 
  private:

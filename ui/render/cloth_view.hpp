@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/cloth_result.hpp"
-#include "ui/render/view.hpp"
+#include "ui/render/frame_view.hpp"
 
 namespace pliant::render {
 
@@ -22,7 +22,7 @@ struct Hand {
 
 /// A cloth with its bodies and pins, at one of its frames. Frames may be added while it is seen. The sheet is shaded
 /// smoothly from both sides and coloured by how near it is to its limits.
-class ClothView final : public View {
+class ClothView final : public FrameView {
  public:
   ClothView();
   ~ClothView() override;
@@ -31,12 +31,11 @@ class ClothView final : public View {
   void setProblem(std::shared_ptr<const cloth::ClothProblem> problem);
   /// All frames in the order of time; those that were there stay the same while a study runs.
   void setFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames);
-  /// Shows the frame with this number, if there is one.
-  void setFrame(int frame);
+  void setFrame(int frame) override;
   /// Looks at the frame on show alone, not at all that the cloth reaches; at the broad side of what hangs as a sheet.
   void faceFrame();
   /// -1: at rest.
-  int frame() const;
+  int frame() const override;
   /// Greys the sheet: inputs have changed since.
   void setStale(bool stale);
   void setField(ClothField field);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/pending_file.hpp"
+#include "core/scene/macro_result.hpp"
 #include "ui/render/macro_view.hpp"
 #include "ui/render/offscreen_target.hpp"
 
@@ -119,13 +120,15 @@ std::string timeLine(double time, FrameClock clock) {
 
 namespace {
 
-/// Films frames, each until the next one's time: `showFrame(i)` shows one. With a caption that tells the time.
+/// Films frames, each until the next one's time: `showFrame(i)` shows one. The caption tells the time if the view does
+/// not.
 template <class Frame>
 std::optional<Film> filmFrames(View& view, OffscreenTarget& target,
                                const std::vector<std::shared_ptr<const Frame>>& frames, FrameClock clock,
-                               const std::function<void(int)>& showFrame, const FilmOptions& options,
-                               const std::filesystem::path& file, base::ExecutionContext& context) {
-  const double speed = checkedSpeed(options, 1) * (clock == FrameClock::steps ? drapeStepsPerSecond : 1);
+                               bool viewTellsTime, const std::function<void(int)>& showFrame,
+                               const FilmOptions& options, const std::filesystem::path& file,
+                               base::ExecutionContext& context) {
+  const double speed = checkedSpeed(options, 1) * clockRate(clock);
   double shortest = INFINITY;
   for (std::size_t i = 1; i < frames.size(); ++i) shortest = std::min(shortest, frames[i]->time - frames[i - 1]->time);
   const double recorded = frames.size() > 1 ? std::clamp(speed / shortest, 1.0, FrameRate::fastest) : stillRate;
@@ -138,6 +141,7 @@ std::optional<Film> filmFrames(View& view, OffscreenTarget& target,
     const double reached = begin + (picture + slack) * between;
     while (shown + 1 < frames.size() && (frames[shown + 1]->time <= reached || picture == count - 1)) ++shown;
     showFrame(static_cast<int>(shown));
+    if (viewTellsTime) return;
     view.setCaption(options.picture.caption + (options.picture.caption.empty() ? "" : "\n") +
                     timeLine(frames[shown]->time, clock));
   };
@@ -159,7 +163,7 @@ std::optional<Film> filmCloth(const std::shared_ptr<const cloth::ClothProblem>& 
   view.setField(options.field);
   view.setDirectionsVisible(options.directionsVisible);
   return filmFrames(
-      view, target, frames, clock, [&](int frame) { view.setFrame(frame); }, options, file, context);
+      view, target, frames, clock, false, [&](int frame) { view.setFrame(frame); }, options, file, context);
 }
 
 std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& result, const FilmOptions& options,
@@ -168,9 +172,11 @@ std::optional<Film> filmMacro(const std::shared_ptr<const scene::MacroResult>& r
   OffscreenTarget target;
   MacroView view;
   view.setResult(result);
+  view.setField(options.macroField);
+  view.setSelectedTriangle(options.selectedTriangle);
   return filmFrames(
-      view, target, result->frames, FrameClock::seconds, [&](int frame) { view.setFrame(frame); }, options, file,
-      context);
+      view, target, result->frames, result->isMotion() ? FrameClock::seconds : FrameClock::loads, true,
+      [&](int frame) { view.setFrame(frame); }, options, file, context);
 }
 
 std::optional<Film> filmMotion(const std::shared_ptr<const harmonic::HarmonicBalanceProblem>& problem,

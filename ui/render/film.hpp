@@ -1,26 +1,38 @@
 #pragma once
 
 #include "core/base/execution_context.hpp"
-#include "core/scene/macro_result.hpp"
+#include "ui/render/cloth_view.hpp"
+#include "ui/render/macro_field.hpp"
 #include "ui/render/offscreen.hpp"
 #include "ui/render/theora_video.hpp"
 
+namespace pliant::scene {
+class MacroResult;
+}
+
 namespace pliant::render {
 
-/// What a frame's time counts: seconds, or the steps of a drape.
-enum class FrameClock { seconds, steps };
+/// What a frame's time counts: seconds, the steps of a drape, or the part of all loads that acts.
+enum class FrameClock { seconds, steps, loads };
 
 constexpr double drapeStepsPerSecond = 5;  ///< how fast drapes play
-constexpr double secondsPerPeriod = 2;     ///< how long a period of a periodic motion takes to play
+constexpr double loadsPerSecond = 0.25;    ///< how fast loads come
+/// What a clock counts in a second, when nothing is shown faster than it is.
+constexpr double clockRate(FrameClock clock) {
+  return clock == FrameClock::steps ? drapeStepsPerSecond : clock == FrameClock::loads ? loadsPerSecond : 1;
+}
+constexpr double secondsPerPeriod = 2;  ///< how long a period of a periodic motion takes to play
 
 /// How what moves becomes pictures.
 struct FilmOptions {
-  PictureOptions picture;            ///< a line with the time stands below the caption of a cloth
+  PictureOptions picture;            ///< a line with the time stands below the caption of a cloth or sheet
   double pixelRatio = 1;             ///< scales text, lines and markers
   std::optional<CameraPose> camera;  ///< else as `picture.view` looks, with all of the motion in view
   bool fieldVisible = true;
   ClothField field = ClothField::stretchRatio;
   bool directionsVisible = false;
+  MacroField macroField = MacroField::nearest;
+  std::optional<int> selectedTriangle;  ///< of a sheet of interlocking material
   /// [1/s]; else every frame of a cloth has its picture, as far as frames are evenly recorded, and a periodic motion
   /// has 30.
   std::optional<double> picturesPerSecond;

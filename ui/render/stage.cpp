@@ -49,12 +49,14 @@ void Stage::attach(vtkRenderWindow* window) {
     window_->RemoveRenderer(gizmo_.renderer());
   }
   window_ = window;
-  if (!window) return;
-  window->SetNumberOfLayers(2);
-  window->AddRenderer(renderer_);
-  window->AddRenderer(gizmo_.renderer());
-  setPixelRatio(ratio_);
-  setFineQuality(fine_);
+  if (window) {
+    window->SetNumberOfLayers(2);
+    window->AddRenderer(renderer_);
+    window->AddRenderer(gizmo_.renderer());
+    setPixelRatio(ratio_);
+    setFineQuality(fine_);
+  }
+  if (onAttach) onAttach();
 }
 
 void Stage::layOut() {

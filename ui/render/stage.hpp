@@ -16,7 +16,7 @@
 namespace pliant::render {
 
 /// What stands around the figure of every view: a renderer with its light, the camera, the gizmo, the scalar bar and
-/// two labels. The view's own parts follow it through three hooks.
+/// two labels. The view's own parts follow it through hooks.
 class Stage {
  public:
   Stage();
@@ -29,6 +29,8 @@ class Stage {
   const CameraControl& camera() const { return camera_; }
   Legend& legend() { return legend_; }
   const Palette& colors() const;
+  Theme theme() const { return theme_; }
+  vtkRenderWindow* window() const { return window_; }
   double pixelRatio() const { return ratio_; }
   bool fieldVisible() const { return fieldVisible_; }
 
@@ -51,6 +53,7 @@ class Stage {
   std::function<void()> onTheme;       ///< other colours
   std::function<void()> onPixelRatio;  ///< another size of pixels
   std::function<void()> onField;       ///< the field is shown or hidden
+  std::function<void()> onAttach;      ///< it is in another window, or in none
 
  private:
   void layOut();

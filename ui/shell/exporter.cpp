@@ -13,6 +13,7 @@
 #include "core/scene/model_builder.hpp"
 #include "core/scene/motion_animation.hpp"
 #include "ui/render/film.hpp"
+#include "ui/render/macro_view.hpp"
 #include "ui/viewport/viewport.hpp"
 
 namespace pliant::shell {
@@ -23,8 +24,42 @@ namespace {
   throw base::InputError(file.toStdString(), problem.toStdString());
 }
 
+/// Null: no sheet of interlocking material is on show.
+std::shared_ptr<const render::MacroView> sheetOnShow(const viewport::Viewport& viewport) {
+  const auto view = std::dynamic_pointer_cast<const render::MacroView>(viewport.guest());
+  return view && view->result() ? view : nullptr;
+}
+
+/// What is recorded, as meshes.
+struct MeshFrames {
+  std::vector<double> times;
+  std::function<geometry::SurfaceMesh(std::size_t)> mesh;
+};
+
+MeshFrames meshFrames(const viewport::Viewport& viewport) {
+  MeshFrames meshes;
+  const auto gather = [&](const auto& frames) {
+    for (const auto& frame : frames) meshes.times.push_back(frame->time);
+  };
+  if (const auto view = sheetOnShow(viewport)) {
+    gather(view->result()->frames);
+    meshes.mesh = [result = view->result()](std::size_t frame) {
+      geometry::SurfaceMesh mesh = result->sheet->mesh;
+      mesh.points = result->frames[frame]->positions;
+      return mesh;
+    };
+  } else {
+    gather(viewport.clothFrames());
+    meshes.mesh = [problem = viewport.clothProblem(), frames = viewport.clothFrames()](std::size_t frame) {
+      return scene::clothMesh(*problem, *frames[frame]);
+    };
+  }
+  return meshes;
+}
+
 geometry::SurfaceMesh deformedMesh(const document::Document& document, const jobs::MotionSession& session,
                                    viewport::Viewport& viewport) {
+  if (const auto sheet = sheetOnShow(viewport)) return sheet->mesh();
   const int frame = viewport.showsCloth() ? viewport.clothView().frame() : -1;
   if (frame >= 0)
     return scene::clothMesh(*viewport.clothProblem(), *viewport.clothFrames().at(static_cast<std::size_t>(frame)));
@@ -62,6 +97,16 @@ void writeCurve(const QString& file, const document::Document& document, const s
 FrameExport filmExport(const std::filesystem::path& file, const jobs::MotionSession& session,
                        const viewport::Viewport& viewport) {
   render::FilmOptions film = viewport.filmOptions();
+  if (const auto view = sheetOnShow(viewport)) {
+    film.macroField = view->field();
+    film.selectedTriangle = view->selectedTriangle();
+    auto sheet = std::make_shared<scene::MacroResult>(*view->result());
+    if (!view->nativeVisible()) sheet->native.reset();
+    return [file, film, sheet](base::ExecutionContext& context) {
+      const auto made = render::filmMacro(sheet, film, file, context);
+      return made ? made->files : 0;
+    };
+  }
   if (viewport.showsCloth())
     return [file, film, problem = viewport.clothProblem(), frames = viewport.clothFrames(),
             clock = viewport.frameClock()](base::ExecutionContext& context) {
@@ -79,11 +124,18 @@ FrameExport filmExport(const std::filesystem::path& file, const jobs::MotionSess
 
 FrameExport animationExport(const std::filesystem::path& file, const jobs::MotionSession& session,
                             const viewport::Viewport& viewport) {
-  if (viewport.showsCloth())
-    return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
-      const auto animation = scene::clothAnimation(*problem, frames, context);
-      if (animation) geometry::writeAnimation(*animation, file);
-      return animation ? 1 : 0;
+  if (viewport.showsFrames())
+    return [file, frames = meshFrames(viewport)](base::ExecutionContext& context) {
+      geometry::MeshAnimation animation;
+      animation.times = frames.times;
+      for (std::size_t i = 0; i < frames.times.size(); ++i) {
+        if (context.cancelRequested()) return 0;
+        geometry::SurfaceMesh mesh = frames.mesh(i);
+        animation.triangles = std::move(mesh.triangles);
+        animation.frames.push_back(std::move(mesh.points));
+      }
+      geometry::writeAnimation(animation, file);
+      return 1;
     };
   const jobs::ShownMotion& shown = *session.shown();
   return [file, seconds = shown.problem->basis().periods() / viewport.speed(), problem = shown.problem,
@@ -126,17 +178,17 @@ class TemporaryFolder {
 };
 
 FrameExport meshExport(const std::filesystem::path& file, const viewport::Viewport& viewport) {
-  return [file, problem = viewport.clothProblem(), frames = viewport.clothFrames()](base::ExecutionContext& context) {
+  return [file, frames = meshFrames(viewport)](base::ExecutionContext& context) {
     const TemporaryFolder folder(file);
     int written = 0;
-    for (const auto& frame : frames) {
+    for (std::size_t i = 0; i < frames.times.size(); ++i) {
       if (context.cancelRequested()) return 0;
       const QString name = QStringLiteral("%1_%2%3")
                                .arg(QString::fromStdString(file.stem().string()))
                                .arg(written++, 5, 10, QLatin1Char('0'))
                                .arg(QString::fromStdString(file.extension().string()));
-      geometry::writeMesh(scene::clothMesh(*problem, *frame), folder.path() / name.toStdString());
-      context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.size()));
+      geometry::writeMesh(frames.mesh(i), folder.path() / name.toStdString());
+      context.reportProgress(static_cast<double>(written) / static_cast<double>(frames.times.size()));
     }
     folder.emptyInto(file.parent_path());
     return written;
@@ -170,19 +222,20 @@ void exportTo(const QString& file, const document::Document& document, const job
 QString frameExportFilters(const viewport::Viewport& viewport) {
   const QString films = QStringLiteral("Video (*.ogv);;Numbered pictures (*.png)");
   const QString animated = films + QStringLiteral(";;Animation (*.glb)");
-  return viewport.showsCloth() ? animated + QStringLiteral(";;Numbered meshes (*.obj *.ply *.stl)") : animated;
+  return viewport.showsFrames() ? animated + QStringLiteral(";;Numbered meshes (*.obj *.ply *.stl)") : animated;
 }
 
 FrameExport frameExport(const QString& file, const jobs::MotionSession& session, const viewport::Viewport& viewport) {
   const QString suffix = QFileInfo(file).suffix().toLower();
   if (viewport.isLive()) fail(file, QStringLiteral("A live cloth has no frames to export until it is recorded."));
-  const bool cloth = viewport.showsCloth() && !viewport.clothFrames().empty();
+  const bool frames = viewport.showsFrames() && (!viewport.showsCloth() || !viewport.clothFrames().empty());
+  const bool still = viewport.showsCloth() || sheetOnShow(viewport);
   const bool film = suffix == QLatin1String("ogv") || suffix == QLatin1String("png");
-  if (!cloth && (viewport.showsCloth() || !session.shown()))
+  if (!frames && (still || !session.shown()))
     fail(file, QStringLiteral("There is no motion to export yet: run its study first."));
   if (film) return filmExport(file.toStdString(), session, viewport);
   if (suffix == QLatin1String("glb")) return animationExport(file.toStdString(), session, viewport);
-  if (!cloth) fail(file, QStringLiteral("The file's name must end in .ogv, .png or .glb."));
+  if (!frames) fail(file, QStringLiteral("The file's name must end in .ogv, .png or .glb."));
   if (suffix == QLatin1String("obj") || suffix == QLatin1String("ply") || suffix == QLatin1String("stl"))
     return meshExport(file.toStdString(), viewport);
   fail(file, QStringLiteral("The file's name must end in .ogv, .png, .glb, .obj, .ply or .stl."));

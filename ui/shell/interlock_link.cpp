@@ -92,10 +92,11 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
       tests_(tests),
       view_(std::make_shared<render::LimitView>()),
       patchView_(std::make_shared<render::PatchView>()),
-      macroView_(std::make_shared<render::MacroView>()) {
+      sheetLink_(document, viewport, sheets) {
   connect(&document_, &document::Document::sceneReplaced, this, [this] {
     grows_.clear();
-    framed_ = patchFramed_ = macroFramed_ = false;
+    framed_ = patchFramed_ = false;
+    sheetLink_.forget();
     leave();
   });
   connect(&document_, &document::Document::sceneEdited, this, &InterlockLink::refreshStale);
@@ -103,14 +104,10 @@ InterlockLink::InterlockLink(document::Document& document, jobs::JobRunner& quic
   connect(&boundary_, &panels::BoundaryPanel::stateExamined, this, &InterlockLink::showState);
   connect(&tests_, &panels::CellTestPanel::studyChosen, this, &InterlockLink::showTest);
   connect(&sheets_, &panels::SheetPanel::studyChosen, this, &InterlockLink::showTest);
-  connect(&sheets_, &panels::SheetPanel::viewChanged, this, &InterlockLink::refreshSheet);
-  connect(&viewport_, &viewport::Viewport::nodePicked, this, [this](int picked) {
-    if (viewport_.guest() == macroView_) sheets_.take(picked);
-  });
 }
 
 bool InterlockLink::isShown() const {
-  return viewport_.guest() == view_ || viewport_.guest() == patchView_ || viewport_.guest() == macroView_;
+  return viewport_.guest() == view_ || viewport_.guest() == patchView_ || sheetLink_.isShown();
 }
 
 void InterlockLink::follow(const std::string& name) {
@@ -118,7 +115,12 @@ void InterlockLink::follow(const std::string& name) {
   if (!study || !study->result || study->result->kind() != "interlock") return;
   const bool ended = study->status != StudyStatus::running && study->status != StudyStatus::waiting;
   const bool plotted = travel_.shows(study->type) || sizes_.shows(study->type);
-  if (panels::CellTestPanel::shows(study->type) && ended) {
+  if (sheets_.shows(study->type) && !ended) {
+    // A sheet that moves is seen while it does, unless something else has been looked at since.
+    const bool begins = grows_ != name;
+    if (begins || study_ == name) showTest(name);
+    if (begins) Q_EMIT resultGrows(study->type);
+  } else if (panels::CellTestPanel::shows(study->type) && ended) {
     if (!study->stale) showTest(name);
     if (sheets_.shows(study->type)) Q_EMIT resultGrows(study->type);
   } else if (grows_ != name && (!ended || plotted)) {
@@ -149,15 +151,8 @@ void InterlockLink::showTest(const std::string& name) {
     study_ = name;
     tests_.setShown(name);
     sheets_.setStudy(name);
-    const bool another = macroView_->result() != sheet;
-    macroView_->setResult(sheet);
-    refreshSheet();
-    showGuest(macroView_, QString::fromStdString(render::macroCaption(*sheet)));
-    if (!std::exchange(macroFramed_, true))
-      viewport_.setAxisView(render::AxisView::isometric);
-    else if (another)
-      viewport_.fit();
-    viewport_.redrawGuest(true);
+    sheetLink_.show(sheet, study->status == StudyStatus::running);
+    refreshStale();
     return;
   }
   const auto* result = dynamic_cast<const scene::CellTestResult*>(found);
@@ -258,15 +253,6 @@ void InterlockLink::leave() {
   tests_.setShown(std::string());
 }
 
-void InterlockLink::refreshSheet() {
-  macroView_->setField(sheets_.field());
-  macroView_->setElementsVisible(sheets_.showsElements());
-  macroView_->setPicks(sheets_.clicks() == panels::SheetPanel::Clicks::read ? render::MacroView::Picks::triangles
-                                                                            : render::MacroView::Picks::nodes);
-  macroView_->setSelectedTriangle(sheets_.selectedTriangle());
-  if (viewport_.guest() == macroView_) viewport_.redrawGuest();
-}
-
 void InterlockLink::refreshStale() {
   if (!isShown()) return;
   const document::StudyState* study = document_.study(study_);
@@ -276,7 +262,7 @@ void InterlockLink::refreshStale() {
   }
   view_->setStale(study->stale);
   patchView_->setStale(study->stale);
-  macroView_->setStale(study->stale);
+  sheetLink_.setStale(study->stale);
   viewport_.redrawGuest();
 }
 

@@ -7,8 +7,8 @@
 #include "ui/document/document.hpp"
 #include "ui/jobs/job_runner.hpp"
 #include "ui/render/limit_view.hpp"
-#include "ui/render/macro_view.hpp"
 #include "ui/render/patch_view.hpp"
+#include "ui/shell/sheet_link.hpp"
 
 namespace pliant::panels {
 class BoundaryPanel;
@@ -58,8 +58,6 @@ class InterlockLink final : public QObject {
   /// Finds a configuration and its caption in the background, then shows it.
   template <class Find>
   void showLater(Find find);
-  /// Colours, picks and marks of the sheet as its panel says.
-  void refreshSheet();
   void refreshStale();
 
   document::Document& document_;
@@ -72,10 +70,10 @@ class InterlockLink final : public QObject {
   panels::CellTestPanel& tests_;
   std::shared_ptr<render::LimitView> view_;
   std::shared_ptr<render::PatchView> patchView_;
-  std::shared_ptr<render::MacroView> macroView_;
-  std::string study_;  ///< whose limit is shown, or asked for
-  std::string grows_;  ///< study that was brought to its panel while it ran
-  bool framed_ = false, patchFramed_ = false, macroFramed_ = false;  ///< the views have been turned once for this scene
+  SheetLink sheetLink_;
+  std::string study_;                          ///< whose limit is shown, or asked for
+  std::string grows_;                          ///< study that was brought to its panel while it ran
+  bool framed_ = false, patchFramed_ = false;  ///< the views have been turned once for this scene
 };
 
 /// Whether a study is one of an interlocking cell.

@@ -246,8 +246,8 @@ void MainWindow::refreshActions() {
   const bool editing = document_.isEditing();
   for (const char* id : {"file.export", "file.make", "view.fit", "model.nextProbe"}) enable(id, open);
   for (const char* id : {"file.save", "file.saveAs", "model.reset"}) enable(id, open && !editing);
-  enable("file.exportFrames", session_.shown().has_value() || viewport_->showsCloth());
-  enable("view.play", session_.shown().has_value() || viewport_->showsCloth() || live_.isOpen());
+  enable("file.exportFrames", session_.shown().has_value() || viewport_->showsFrames());
+  enable("view.play", session_.shown().has_value() || viewport_->showsFrames() || live_.isOpen());
   actions_.find(QStringLiteral("view.drapes"))->setChecked(pages_->currentIndex() == 2);
   for (const char* id : {"cell.reset", "model.print"}) enable(id, showsCells(document_));
   enable("live.open", liveBar_ && !liveBar_->study().empty());

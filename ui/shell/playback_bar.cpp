@@ -47,14 +47,14 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
 
   connect(scrub_, &QSlider::valueChanged, this, [this](int step) {
     viewport_.pause();
-    if (ofCloth_)
+    if (ofFrames_)
       viewport_.setTime(viewport_.duration() * step / (steps - 1));
     else
       viewport_.setTau(turn * step / steps);
   });
   connect(speed_, &QComboBox::activated, this, [this] {
     const double chosen = speed_->currentData().toDouble();
-    if (ofCloth_)
+    if (ofFrames_)
       viewport_.setClothSpeed(chosen);
     else
       viewport_.setSpeed(chosen);
@@ -62,10 +62,10 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
   connect(&viewport_, &viewport::Viewport::tauChanged, this, &PlaybackBar::showTau);
   connect(&viewport_, &viewport::Viewport::timeChanged, this, &PlaybackBar::showTime);
   connect(&viewport_, &viewport::Viewport::clothChanged, this, [this] {
-    if (ofCloth_ != viewport_.showsCloth()) fillSpeeds();
+    if (ofFrames_ != viewport_.showsFrames()) fillSpeeds();
     scrub_->setEnabled(!viewport_.isLive());
     speed_->setEnabled(!viewport_.isLive());
-    if (ofCloth_)
+    if (ofFrames_)
       showTime(viewport_.time());
     else
       showTau(viewport_.tau());
@@ -74,18 +74,18 @@ PlaybackBar::PlaybackBar(viewport::Viewport& viewport, QAction* playAction, QWid
 }
 
 void PlaybackBar::fillSpeeds() {
-  ofCloth_ = viewport_.showsCloth();
+  ofFrames_ = viewport_.showsFrames();
   speed_->clear();
   for (const double speed : {0.1, 0.25, 0.5, 1.0, 2.0})
-    speed_->addItem(ofCloth_ ? tr("%1 × speed").arg(speed) : tr("%1 periods/s").arg(speed), speed);
-  speed_->setCurrentIndex(speed_->findData(ofCloth_ ? viewport_.clothSpeed() : viewport_.speed()));
-  speed_->setToolTip(ofCloth_ ? tr("How fast the cloth is shown, beside real time")
-                              : tr("How many periods are shown in a second"));
-  scrub_->setToolTip(ofCloth_ ? tr("The time of the frame") : tr("The place in the period"));
+    speed_->addItem(ofFrames_ ? tr("%1 × speed").arg(speed) : tr("%1 periods/s").arg(speed), speed);
+  speed_->setCurrentIndex(speed_->findData(ofFrames_ ? viewport_.clothSpeed() : viewport_.speed()));
+  speed_->setToolTip(ofFrames_ ? tr("How fast it is shown, beside real time")
+                               : tr("How many periods are shown in a second"));
+  scrub_->setToolTip(ofFrames_ ? tr("The time of the frame") : tr("The place in the period"));
 }
 
 void PlaybackBar::showTau(double tau) {
-  if (ofCloth_) return;
+  if (ofFrames_) return;
   const QSignalBlocker block(scrub_);
   scrub_->setValue(static_cast<int>(std::lround(tau / turn * steps)) % steps);
   if (const int periods = viewport_.motionView().periods(); periods > 1)
@@ -95,13 +95,15 @@ void PlaybackBar::showTau(double tau) {
 }
 
 void PlaybackBar::showTime(double time) {
-  if (!ofCloth_) return;
+  if (!ofFrames_) return;
   const QSignalBlocker block(scrub_);
   const double duration = viewport_.duration();
   scrub_->setValue(duration > 0 ? static_cast<int>(std::lround(time / duration * (steps - 1))) : 0);
-  place_->setText(viewport_.frameClock() == viewport::Viewport::FrameClock::seconds
-                      ? QStringLiteral("%1 s").arg(time, 0, 'f', 2)
-                      : tr("step %1").arg(std::lround(time)));
+  switch (viewport_.frameClock()) {
+    case render::FrameClock::seconds: place_->setText(QStringLiteral("%1 s").arg(time, 0, 'f', 2)); break;
+    case render::FrameClock::steps: place_->setText(tr("step %1").arg(std::lround(time))); break;
+    case render::FrameClock::loads: place_->setText(tr("load %1 %").arg(std::lround(100 * time)));
+  }
 }
 
 }  // namespace pliant::shell

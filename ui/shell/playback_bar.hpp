@@ -30,7 +30,7 @@ class PlaybackBar final : public QWidget {
   QSlider* scrub_;
   QLabel* place_;
   QComboBox* speed_;
-  bool ofCloth_ = false;
+  bool ofFrames_ = false;
 };
 
 }  // namespace pliant::shell

@@ -213,7 +213,7 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
   const bool middle = event->buttons() & Qt::MiddleButton;
   if (!turns && !middle) {
     if (live_ || showsCell()) refreshCursor(event->position());
-    if (tool_ && view_ == &motion_) hoverTool(event->position());
+    if (activeTool()) hoverTool(event->position());
     Q_EMIT hovered(event->position());
     return;
   }
@@ -278,7 +278,7 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
     case Qt::Key_Space: togglePlaying(); break;
     case Qt::Key_Escape:
-      if (tool_ && tool_->escape())
+      if (activeTool() && activeTool()->escape())
         toolHolds_ = false;
       else if (pulled_)
         endPull(false);
@@ -301,8 +301,8 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
 
 void Viewport::advance() {
   const double seconds = 1e-3 * static_cast<double>(clock_.restart());
-  if (showsCloth())
-    advanceCloth(seconds);
+  if (playback())
+    setTime(playback()->after(seconds, clothSpeed_));
   else
     setTau(motion_.tau() + fullTurn * speed_ * seconds / motion_.periods());
 }
@@ -341,6 +341,7 @@ void Viewport::applyTheme() {
 
 void Viewport::setGuest(std::shared_ptr<render::View> guest) {
   if (guest == guest_) return;
+  guestPlayback_.clear();
   const auto before = std::exchange(guest_, std::move(guest));  // detached before it may go
   if (guest_) {
     pause();
@@ -348,9 +349,11 @@ void Viewport::setGuest(std::shared_ptr<render::View> guest) {
     guest_->setTheme(theme());
     guest_->setFieldVisible(motion_.fieldVisible());
   } else {
+    pause();
     showOwnView();
   }
-  redraw();
+  Q_EMIT clothChanged();
+  refreshTools();
 }
 
 void Viewport::redrawGuest(bool refit) {

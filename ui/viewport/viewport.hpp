@@ -14,6 +14,7 @@
 #include "ui/render/cloth_view.hpp"
 #include "ui/render/film.hpp"
 #include "ui/render/motion_view.hpp"
+#include "ui/viewport/playback.hpp"
 
 namespace pliant::render {
 class MotionPair;
@@ -32,6 +33,8 @@ class Viewport : public QWidget {
   Q_OBJECT
 
  public:
+  using FrameClock = render::FrameClock;
+
   /// Throws std::runtime_error if this machine can draw neither by OpenGL nor by Mesa's software renderer.
   explicit Viewport(QWidget* parent = nullptr);
   ~Viewport() override;
@@ -51,8 +54,9 @@ class Viewport : public QWidget {
   void clearBeside();
   /// Null: the motion has the viewport to itself.
   const render::MotionPair* pair() const { return pair_.get(); }
-  /// Gets the mouse first while a motion or a model is shown; outlives that. Null: none.
+  /// Gets the mouse first while a motion or a model is shown, or a guest; outlives that. Null: none.
   void setTool(MouseTool* tool);
+  void setGuestTool(MouseTool* tool);
   const MouseTool* tool() const { return tool_; }
   render::MotionView& motionView() { return motion_; }
   /// Redraws after something was set at motionView().
@@ -68,19 +72,23 @@ class Viewport : public QWidget {
   /// Shows another view in the place of all that, from where it was seen last; null: that again.
   void setGuest(std::shared_ptr<render::View> guest);
   const std::shared_ptr<render::View>& guest() const { return guest_; }
+  /// The guest, a render::FrameView, has frames at these times, which are played as those of a cloth are; none: it
+  /// stands still. See setClothFrames.
+  void setGuestFrames(std::vector<double> times, bool growing, FrameClock clock);
+  /// Whether there are frames to be played and scrubbed, of a cloth or a guest.
+  bool showsFrames() const { return playback() != nullptr; }
   /// Redraws after something was set at the guest. `refit`: it reaches elsewhere now, and is fitted unless somebody has
   /// moved the camera.
   void redrawGuest(bool refit = false);
   render::ClothView& clothView() { return cloth_; }
   std::shared_ptr<const cloth::ClothProblem> clothProblem() const { return clothProblem_; }
-  using FrameClock = render::FrameClock;
   /// All frames of the cloth. While they grow the newest is shown, unless another one was chosen.
   void setClothFrames(std::vector<std::shared_ptr<const scene::ClothFrame>> frames, bool growing, FrameClock clock);
   const std::vector<std::shared_ptr<const scene::ClothFrame>>& clothFrames() const { return frames_; }
-  FrameClock frameClock() const { return frameClock_; }
-  /// Of the shown cloth's last frame, and the place in it [s or steps].
-  double duration() const { return frames_.empty() ? 0 : frames_.back()->time; }
-  double time() const { return time_; }
+  /// What is shown of the frames of a cloth or a guest; without any, as of seconds.
+  FrameClock frameClock() const { return playback() ? playback()->clock() : FrameClock::seconds; }
+  double duration() const { return playback() ? playback()->duration() : 0; }
+  double time() const { return playback() ? playback()->time() : 0; }
   /// The cloth on show goes on by itself, and its nodes can be pulled; there is nothing to play or to scrub.
   void setLive(bool live);
   bool isLive() const { return live_; }
@@ -107,7 +115,7 @@ class Viewport : public QWidget {
   bool isPlaying() const { return timer_.isActive(); }
   /// Periods shown in a second; 0.5 at first.
   double speed() const { return speed_; }
-  /// How much faster than life a cloth is shown; 1 at first.
+  /// How much faster than life a cloth or a guest is shown; 1 at first.
   double clothSpeed() const { return clothSpeed_; }
   /// What a click there would pick.
   std::optional<int> nodeAt(const QPointF& place) const;
@@ -132,7 +140,7 @@ class Viewport : public QWidget {
   /// The place in the period [rad], wrapped to [0, 2π).
   void setTau(double tau);
   void setSpeed(double periodsPerSecond);
-  /// Shows the last frame of the cloth that is not after this time.
+  /// Shows the last frame of the cloth or guest that is not after this time.
   void setTime(double time);
   void setClothSpeed(double factor) { clothSpeed_ = factor; }
   void fit();
@@ -150,7 +158,7 @@ class Viewport : public QWidget {
   void gripLetGo();
   void tauChanged(double tau);
   void timeChanged(double time);
-  /// A cloth, or how much there is of it, or no cloth any more.
+  /// A cloth or a guest with frames, or how much there is of it, or none any more.
   void clothChanged();
   /// Where the pointer is while no button is pressed; none once it has left. Only with setMouseTracking(true).
   void hovered(std::optional<QPointF> place);
@@ -168,7 +176,10 @@ class Viewport : public QWidget {
 
  private:
   void advance();
-  void advanceCloth(double seconds);
+  /// Of what is shown; null: it has no frames.
+  const Playback* playback() const;
+  Playback* playback() { return const_cast<Playback*>(std::as_const(*this).playback()); }
+  void showPlayback();
   void beginPull(const QMouseEvent& event);
   void movePull(const QPointF& place);
   void endPull(bool toggles);
@@ -176,6 +187,8 @@ class Viewport : public QWidget {
   void moveGrip(const QPointF& place);
   void endGrip();
   std::optional<render::CellPick> gripAt(const QPointF& place) const;
+  MouseTool* activeTool() const;
+  void refreshTools();
   bool pressTool(const QPointF& place, Qt::MouseButton button, Qt::KeyboardModifiers modifiers);
   void dragTool(const QPointF& place);
   void releaseTool();
@@ -198,7 +211,7 @@ class Viewport : public QWidget {
   render::View* view_ = &motion_;  ///< what is shown
   std::unique_ptr<RenderSurface> surface_;
   std::unique_ptr<render::MotionPair> pair_;
-  MouseTool* tool_ = nullptr;
+  MouseTool *tool_ = nullptr, *guestTool_ = nullptr;
   bool toolHolds_ = false;
   QTimer timer_;
   QTimer settleTimer_;
@@ -206,11 +219,8 @@ class Viewport : public QWidget {
   double speed_ = 0.5;
   std::vector<std::shared_ptr<const scene::ClothFrame>> frames_;
   std::shared_ptr<const cloth::ClothProblem> clothProblem_;
-  FrameClock frameClock_ = FrameClock::seconds;
-  double time_ = 0;
+  Playback clothPlayback_, guestPlayback_;
   double clothSpeed_ = 1;
-  bool growing_ = false;
-  bool followsNewest_ = true;  ///< while frames grow
   bool live_ = false;
   std::vector<int> handheld_;             ///< nodes of the live cloth, the pulled one too
   std::optional<int> pulled_;             ///< by the mouse

@@ -21,8 +21,7 @@ void Viewport::setCloth(std::shared_ptr<const cloth::ClothProblem> problem) {
       shown && clothProblem_ && clothProblem_->model->restPositions.size() == problem->model->restPositions.size();
   clothProblem_ = problem;
   frames_.clear();
-  time_ = 0;
-  followsNewest_ = true;
+  clothPlayback_.clear();
   if (!alike) pulled_.reset();
   cloth_.setProblem(std::move(problem));
   if (!guest_) showOwnView();
@@ -40,39 +39,44 @@ void Viewport::setClothFrames(std::vector<std::shared_ptr<const scene::ClothFram
                               FrameClock clock) {
   if (!showsCloth()) return;
   frames_ = frames;
-  growing_ = growing;
-  frameClock_ = clock;
+  std::vector<double> times;
+  for (const auto& frame : frames_) times.push_back(frame->time);
   cloth_.setFrames(std::move(frames));
+  clothPlayback_.setTimes(std::move(times), growing, clock, isPlaying());
   // A fit follows what the cloth reaches for as long as nobody moves the camera.
   if (framed_) cloth_.fit();
   Q_EMIT clothChanged();
-  const bool follows = growing_ && followsNewest_ && !isPlaying();
-  setTime(follows ? duration() : std::min(time_, duration()));
+  showPlayback();
   redraw();
 }
 
-void Viewport::setTime(double time) {
-  if (!showsCloth() || frames_.empty() || !std::isfinite(time)) return;
-  time_ = std::clamp(time, frames_.front()->time, duration());
-  followsNewest_ = time_ >= duration();
-  const double reached = time_ + 1e-9 * std::max(1.0, std::abs(time_));
-  const auto after = std::upper_bound(
-      frames_.begin(), frames_.end(), reached, [](double value, const auto& frame) { return value < frame->time; });
-  const int frame = std::max(0, static_cast<int>(after - frames_.begin()) - 1);
-  if (frame != cloth_.frame()) {
-    cloth_.setFrame(frame);
-    redraw(true);
-  }
-  Q_EMIT timeChanged(time_);
+void Viewport::setGuestFrames(std::vector<double> times, bool growing, FrameClock clock) {
+  guestPlayback_.setTimes(std::move(times), growing, clock, isPlaying());
+  if (guestPlayback_.isEmpty()) pause();
+  Q_EMIT clothChanged();
+  showPlayback();
 }
 
-void Viewport::advanceCloth(double seconds) {
-  if (frames_.empty()) return;
-  const double next =
-      time_ + clothSpeed_ * seconds * (frameClock_ == FrameClock::steps ? render::drapeStepsPerSecond : 1);
-  const bool ended = time_ >= duration();
-  // The last frame is seen before it begins again; of a study that runs it waits for the next.
-  setTime(ended && !growing_ ? 0 : next);
+const Playback* Viewport::playback() const {
+  if (showsCloth()) return &clothPlayback_;
+  return guest_ && view_ == guest_.get() && !guestPlayback_.isEmpty() ? &guestPlayback_ : nullptr;
+}
+
+void Viewport::setTime(double time) {
+  if (!playback() || !std::isfinite(time)) return;
+  playback()->setTime(time);
+  showPlayback();
+}
+
+void Viewport::showPlayback() {
+  if (!playback() || playback()->isEmpty()) return;
+  auto& view = static_cast<render::FrameView&>(*view_);
+  const int frame = std::max(0, playback()->frame());
+  if (frame != view.frame()) {
+    view.setFrame(frame);
+    redraw(true);
+  }
+  Q_EMIT timeChanged(time());
 }
 
 void Viewport::setLive(bool live) {
@@ -92,15 +96,15 @@ void Viewport::showLive(std::shared_ptr<const scene::ClothFrame> frame, std::vec
   if (!showsCloth() || !live_) return;
   handheld_.clear();
   for (const render::Hand& hand : hands) handheld_.push_back(hand.node);
-  time_ = frame->time;
+  clothPlayback_.clear();
+  clothPlayback_.setTimes({frame->time}, false, FrameClock::seconds, false);
   frames_ = {std::move(frame)};
-  frameClock_ = FrameClock::seconds;
   cloth_.setFrames(frames_);
   cloth_.setFrame(0);
   cloth_.setHands(std::move(hands));
   if (framed_) cloth_.fit();
   redraw(true);
-  Q_EMIT timeChanged(time_);
+  Q_EMIT timeChanged(time());
 }
 
 void Viewport::beginPull(const QMouseEvent& event) {

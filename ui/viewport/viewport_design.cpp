@@ -37,33 +37,48 @@ void Viewport::clearBeside() {
 
 void Viewport::setTool(MouseTool* tool) {
   tool_ = tool;
+  refreshTools();
+}
+
+void Viewport::setGuestTool(MouseTool* tool) {
+  if (tool == guestTool_) return;
+  guestTool_ = tool;
+  refreshTools();
+}
+
+MouseTool* Viewport::activeTool() const {
+  if (guest_ && view_ == guest_.get()) return guestTool_;
+  return view_ == &motion_ ? tool_ : nullptr;
+}
+
+void Viewport::refreshTools() {
   toolHolds_ = false;
-  setMouseTracking(tool_ || live_ || showsCell());
-  if (!tool_) unsetCursor();
+  setMouseTracking(tool_ || activeTool() || live_ || showsCell());
+  if (!activeTool()) unsetCursor();
   redraw();
 }
 
 bool Viewport::pressTool(const QPointF& place, Qt::MouseButton button, Qt::KeyboardModifiers modifiers) {
   const double ratio = devicePixelRatioF();
-  toolHolds_ = tool_ && view_ == &motion_ && tool_->press(place.x() * ratio, place.y() * ratio, button, modifiers);
+  toolHolds_ = activeTool() && activeTool()->press(place.x() * ratio, place.y() * ratio, button, modifiers);
   if (toolHolds_) setCursor(Qt::ClosedHandCursor);
   return toolHolds_;
 }
 
 void Viewport::dragTool(const QPointF& place) {
   const double ratio = devicePixelRatioF();
-  tool_->drag(place.x() * ratio, place.y() * ratio);
+  if (MouseTool* tool = activeTool()) tool->drag(place.x() * ratio, place.y() * ratio);
 }
 
 void Viewport::releaseTool() {
   toolHolds_ = false;
   setCursor(Qt::OpenHandCursor);
-  tool_->release();
+  if (MouseTool* tool = activeTool()) tool->release();
 }
 
 void Viewport::hoverTool(const QPointF& place) {
   const double ratio = devicePixelRatioF();
-  if (tool_->hover(place.x() * ratio, place.y() * ratio))
+  if (activeTool()->hover(place.x() * ratio, place.y() * ratio))
     setCursor(Qt::OpenHandCursor);
   else
     unsetCursor();

@@ -28,7 +28,7 @@ render::FilmOptions Viewport::filmOptions() const {
   film.fieldVisible = view_->fieldVisible();
   film.field = cloth_.field();
   film.directionsVisible = cloth_.directionsVisible();
-  if (showsCloth()) film.speed = clothSpeed_;
+  if (showsFrames()) film.speed = clothSpeed_;
   return film;
 }
 

@@ -1,11 +1,12 @@
 /// `pliant-bench-ui ui|ui-design [--json FILE]`: what a designer waits for in the window.
 #include <QApplication>
 #include <QElapsedTimer>
-#include <algorithm>
 #include <stdexcept>
 
 #include "tests/benchmarks/bench_program.hpp"
 #include "tests/benchmarks/ui/bench_design_ui.hpp"
+#include "tests/benchmarks/ui/bench_row.hpp"
+#include "tests/benchmarks/ui/bench_sheet.hpp"
 #include "ui/panels/parameter_panel.hpp"
 #include "ui/panels/parameter_row.hpp"
 #include "ui/shell/main_window.hpp"
@@ -15,8 +16,9 @@ namespace {
 
 using namespace pliant;
 using base::Json;
+using bench::repetitions;
+using bench::rowOf;
 
-constexpr int repetitions = 60;
 constexpr int patience = 300'000;  // milliseconds
 
 template <class Condition>
@@ -27,33 +29,6 @@ void waitFor(const Condition& condition, const char* what) {
     if (watch.elapsed() > patience) throw std::runtime_error(std::string("waited too long for ") + what);
     QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
   }
-}
-
-/// Calls act(i) again and again, with all events that it gives rise to, painting included.
-template <class Act>
-Json rowOf(const std::string& name, int size, const Act& act) {
-  std::vector<double> seconds;
-  for (int i = 0; i < repetitions; ++i) {
-    QElapsedTimer watch;
-    watch.start();
-    act(i);
-    QCoreApplication::processEvents();
-    seconds.push_back(1e-9 * static_cast<double>(watch.nsecsElapsed()));
-  }
-  std::sort(seconds.begin(), seconds.end());
-  const double median = seconds[seconds.size() / 2];
-  std::printf("%-36s %7d %10.2f ms (fastest %.2f, slowest %.2f)\n", name.c_str(), size, 1e3 * median,
-              1e3 * seconds.front(), 1e3 * seconds.back());
-  std::fflush(stdout);
-  Json row;
-  row["area"] = "ui";
-  row["name"] = name;
-  row["seconds"] = median;
-  row["iterations"] = repetitions;
-  row["unavoidable_seconds"] = nullptr;
-  row["thesis_seconds"] = nullptr;
-  row["size"] = size;
-  return row;
 }
 
 /// The fork's motion in a window of 1280 x 800.
@@ -82,6 +57,7 @@ Json measure() {
     viewport->setTau(0.1 * (i + 1));
   }));
   session.endPreview();
+  bench::measureSheets(rows);
   return rows;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/scene/macro_result.hpp"
+#include "tests/core/scene/strain_box.hpp"
 #include "ui/panels/sheet_panel.hpp"
 #include "ui/plots/line_plot.hpp"
 #include "ui/render/macro_view.hpp"
@@ -30,34 +31,6 @@ constexpr const char* sheetScene = R"({
                "clamps": [{"point": ["40 mm", 0]}, {"point": ["-40 mm", 0]}],
                "loads": [{"point": [0, 0], "force": [0, 0, "-0.1 N"]}]}]
 })";
-
-constexpr const char* box = R"(v -0.1 -0.1 -0.05
-v 0.1 -0.1 -0.05
-v 0.1 0.1 -0.05
-v -0.1 0.1 -0.05
-v -0.1 -0.1 0.05
-v 0.1 -0.1 0.05
-v 0.1 0.1 0.05
-v -0.1 0.1 0.05
-f 1 3 2
-f 1 4 3
-f 5 6 7
-f 5 7 8
-f 1 2 6
-f 1 6 5
-f 2 3 7
-f 2 7 6
-f 3 4 8
-f 3 8 7
-f 4 1 5
-f 4 5 8
-)";
-
-void write(const QString& name, const char* text) {
-  QFile file(name);
-  QVERIFY(file.open(QIODevice::WriteOnly));
-  file.write(text);
-}
 
 }  // namespace
 
@@ -94,8 +67,8 @@ class TestSheetWindow : public QObject {
 
  private Q_SLOTS:
   void initTestCase() {
-    write(folder_.filePath("sheet.json"), sheetScene);
-    write(folder_.filePath("box.obj"), box);
+    writeText(folder_.filePath("sheet.json"), sheetScene);
+    writeText(folder_.filePath("box.obj"), strainBox);
     window_ = std::make_unique<MainWindow>(false);
     window_->resize(1200, 900);
     window_->show();
@@ -124,7 +97,7 @@ class TestSheetWindow : public QObject {
     QVERIFY2(sheets().readout().contains(QString::number(100 * result()->state.stretchGauge[worst], 'f', 1)),
              qPrintable(sheets().readout()));
     const Eigen::Vector3d strain =
-        scene::strainPlaces(*result(), scene::SheetLimit::stretch, {static_cast<int>(worst)});
+        scene::strainPlaces(scene::sheetMoment(*result()), scene::SheetLimit::stretch, {static_cast<int>(worst)});
     const auto& [a, b, c] = result()->sheet->mesh.triangles[static_cast<std::size_t>(worst)];
     const Eigen::Matrix3Xd rest = result()->sheet->mesh.points,
                            now = result()->state.positions.reshaped(3, rest.cols());

@@ -12,7 +12,19 @@ namespace pliant::viewport {
 
 namespace {
 using FrameClock = Viewport::FrameClock;
-}
+
+/// Any view with frames.
+class CountingView final : public render::FrameView {
+ public:
+  void setFrame(int frame) override { frame_ = frame; }
+  int frame() const override { return frame_; }
+  std::optional<int> pickNode(double, double, double) const override { return std::nullopt; }
+
+ private:
+  int frame_ = -1;
+};
+
+}  // namespace
 
 /// Cloth playback: time, frames that grow, back to the model.
 class TestViewportCloth : public QObject {
@@ -112,6 +124,37 @@ class TestViewportCloth : public QObject {
     };
     QTRY_VERIFY_WITH_TIMEOUT(beganAgain(), 30'000);
     viewport_->pause();
+  }
+
+  /// A guest has its own frames, and its own place in them.
+  void guestsHaveFrames() {
+    viewport_->setClothFrames(sheet_.frames, false, FrameClock::seconds);
+    viewport_->setTime(0.7);
+    QSignalSpy changed(viewport_.get(), &Viewport::clothChanged);
+    const auto guest = std::make_shared<CountingView>();
+    viewport_->setGuest(guest);
+    QVERIFY(changed.count() > 0 && !viewport_->showsFrames());
+    viewport_->setGuestFrames({0, 0.5}, true, FrameClock::loads);
+    QVERIFY(viewport_->showsFrames() && viewport_->frameClock() == FrameClock::loads);
+    QCOMPARE(guest->frame(), 1);  // the newest
+    viewport_->setTime(0.4);
+    QCOMPARE(guest->frame(), 0);
+    viewport_->setGuestFrames({0, 0.5, 1}, true, FrameClock::loads);
+    QCOMPARE(guest->frame(), 0);  // which was chosen
+    viewport_->setTime(1);
+    viewport_->setGuestFrames({0, 0.5, 1, 1.5}, false, FrameClock::loads);
+    QCOMPARE(guest->frame(), 2);
+    QCOMPARE(viewport_->duration(), 1.5);
+    viewport_->setClothSpeed(20);
+    viewport_->play();
+    QTRY_COMPARE_WITH_TIMEOUT(guest->frame(), 3, 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(guest->frame(), 0, 30'000);
+    viewport_->setGuestFrames({}, false, FrameClock::seconds);  // one that stands still
+    QVERIFY(!viewport_->isPlaying() && !viewport_->showsFrames());
+    viewport_->setGuest(nullptr);
+    QVERIFY(viewport_->frameClock() == FrameClock::seconds);
+    QCOMPARE(viewport_->time(), 0.7);
+    QCOMPARE(viewport_->clothView().frame(), 7);
   }
 
   void theModelComesBack() {
