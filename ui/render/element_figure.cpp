@@ -110,8 +110,9 @@ void ElementFigure::show(const scene::MacroResult* result) {
     shape.members = members[s];
     const geometry::SurfaceMesh surface = surfaceOf(cell.shapes[s], cut);
     const std::size_t still = std::max(coarseTriangles, mostStillTriangles / detail.elements.size());
+    const std::size_t moving = std::max(coarseTriangles, mostMovingTriangles / detail.elements.size());
     const std::array<geometry::SurfaceMesh, levelCount> surfaces{
-        surface, decimated(surface, still), decimated(surface, coarseTriangles)};
+        surface, decimated(surface, still), decimated(surface, moving)};
     for (std::size_t level = 0; level < levelCount; ++level) {
       shape.glyphs[level].setShape(surfaces[level]);
       shape.triangles[level] = surfaces[level].triangles.size();
