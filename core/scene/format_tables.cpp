@@ -1,5 +1,6 @@
 #include "core/scene/format_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scene/scene.hpp"
@@ -40,8 +41,12 @@ std::string kindOf(const ParameterSpec& spec) {
     }
     case ValueKind::path: return "path";
     case ValueKind::list: {
-      if (isSignal(spec))
-        return "[harmonics](#harmonics) [" + base::siUnit(spec.items.front().fields[1].dimension) + "]";
+      if (isSignal(spec)) {
+        const auto& fields = spec.items.front().fields;
+        const auto amplitude = std::find_if(
+            fields.begin(), fields.end(), [](const ParameterSpec& field) { return field.key == "amplitude"; });
+        return "[harmonics](#harmonics) [" + base::siUnit(amplitude->dimension) + "]";
+      }
       if (isMotion(spec)) return "list of [keyframes](#keyframes)";
       const ParameterSpec& item = spec.items.front();
       const std::string unit = base::siUnit(item.dimension);

@@ -97,9 +97,9 @@ struct BoundaryView::Parts {
   /// The smaller one is drawn first, so that it is seen through the other where it lies inside.
   void orderBodies() {
     const auto extent = [](const Body& body) {
-      Bounds bounds;
-      if (body.isSeen()) bounds.add(body.surface->points);
-      return hasRange(bounds) ? (bounds.high - bounds.low).prod() : 0;
+      Bounds box;
+      if (body.isSeen()) box.add(body.surface->points);
+      return hasRange(box) ? (box.high - box.low).prod() : 0;
     };
     std::array<Body*, 2> order{&first, &compared};
     if (compared.isSeen() && extent(compared) < extent(first)) std::swap(order[0], order[1]);

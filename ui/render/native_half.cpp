@@ -25,12 +25,6 @@ geometry::SurfaceMesh shapeSurface(const interlock::ElementShape& shape) {
   return interlock::cellSurface(alone, interlock::restState(alone), 1, 1, surfaceTurn);
 }
 
-Color mixed(const Color& a, const Color& b, double part) {
-  Color color;
-  for (std::size_t i = 0; i < color.size(); ++i) color[i] = (1 - part) * a[i] + part * b[i];
-  return color;
-}
-
 }  // namespace
 
 NativeHalf::NativeHalf(Stage& left, std::shared_ptr<const interlock::UnitCell> patch)
