@@ -9,6 +9,8 @@ namespace pliant::mechanics {
 namespace {
 
 constexpr int width = math::Packet::width;
+/// Packets of elements that take no longer than to wake a thread.
+constexpr Eigen::Index fewPackets = 400;
 
 /// Calls visit(row, column) for the packed lower triangle of every element: free indices with row >= column, or -1, -1
 /// where one of the coordinates is not free.
@@ -59,7 +61,7 @@ void ElasticAssembler::evaluate(const Matrix& x, Matrix& gradient, Matrix* hessi
   const Eigen::Index rows = x.rows(), coordinates = x.cols(), entries = hessian ? entryCount() : 0;
   gradient.resize(rows, coordinates);
   if (hessian) hessian->resize(rows, entries);
-  math::parallelFor(static_cast<int>(rows) / width, [&](int packet) {
+  const auto evaluatePacket = [&](int packet) {
     // A packet is evaluated in a matrix of its own: entries that lie side by side use the caches better, and threads
     // never write to the same cache line.
     thread_local Eigen::Matrix<double, width, Eigen::Dynamic> work;
@@ -85,7 +87,14 @@ void ElasticAssembler::evaluate(const Matrix& x, Matrix& gradient, Matrix* hessi
     }
     gradient.middleRows<width>(packet * width) = work.middleCols(coordinates, coordinates);
     if (hessian) hessian->middleRows<width>(packet * width) = work.middleCols(2 * coordinates, entries);
-  });
+  };
+  Eigen::Index elements = 0;
+  for (const auto& energy : model_->energies) elements += energy->elementCount();
+  const int packets = static_cast<int>(rows) / width;
+  if (packets * elements > fewPackets)
+    math::parallelFor(packets, evaluatePacket);
+  else
+    for (int packet = 0; packet < packets; ++packet) evaluatePacket(packet);
 }
 
 double ElasticAssembler::value(const Vector& x) const {
