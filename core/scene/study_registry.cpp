@@ -99,10 +99,11 @@ std::unique_ptr<Study> StudyRegistry::make(const Scene& scene, std::shared_ptr<c
       if (scene.normalized()["geometry"].empty() && !options.contains("cell"))
         throw base::InputError(
             scene.name() + ": /geometry", "The scene has no nodes, which the study " + quote(studyName) + " needs.");
-      // The frequencies of other studies are no parameters of this one.
+      // The frequencies of other studies are no parameters of this one. Studies of interlocking cells need no model.
       const std::string own = placeOfStudy(scene, options) + "/frequency";
-      model = mechanics::withoutDriveFrequencies(
-          std::move(model), [&](const std::string& pointer) { return scene.name() + ": " + pointer == own; });
+      if (model)
+        model = mechanics::withoutDriveFrequencies(
+            std::move(model), [&](const std::string& pointer) { return scene.name() + ": " + pointer == own; });
       checkSecondFrequency(scene, options);
       return std::make_unique<WarningStudy>(factories_.at(options["type"])(scene, std::move(model), options));
     }

@@ -53,7 +53,8 @@ MouseTool* Viewport::activeTool() const {
 
 void Viewport::refreshTools() {
   toolHolds_ = false;
-  setMouseTracking(tool_ || activeTool() || live_ || showsCell());
+  // It is not turned off: whoever looks at what is under the pointer has asked for it as well.
+  if (tool_ || activeTool()) setMouseTracking(true);
   if (!activeTool()) unsetCursor();
   redraw();
 }

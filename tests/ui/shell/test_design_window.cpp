@@ -77,9 +77,9 @@ class TestDesignWindow : public QObject {
     // Every better design was seen as it came, as a ghost over the first, and the best one stays there.
     QVERIFY(progress.count() > 1);
     for (int i = 1; i < progress.count(); ++i) {
-      const auto first = progress.at(i).at(0).value<panels::DesignMotion>();
-      QVERIFY(first.problem == progress.at(0).at(0).value<panels::DesignMotion>().problem);
-      QVERIFY(first.z == result->before().z);
+      const auto begun = progress.at(i).at(0).value<panels::DesignMotion>();
+      QVERIFY(begun.problem == progress.at(0).at(0).value<panels::DesignMotion>().problem);
+      QVERIFY(begun.z == result->before().z);
     }
     QVERIFY(progress.last().at(1).value<panels::DesignMotion>().z == result->after().z);
     viewport::Viewport& viewport = window_->viewport();
