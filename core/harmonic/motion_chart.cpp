@@ -118,8 +118,8 @@ ChartSeries sampled(const HarmonicBalanceProblem& problem, const Vector& z, doub
   const Eigen::Index samples = positions.rows();
   ChartSeries series{std::move(name), Vector(samples + 1), Vector(samples + 1)};
   for (Eigen::Index i = 0; i <= samples; ++i) {
-    series.x[i] = 2 * std::numbers::pi * problem.drivePeriods() * static_cast<double>(i) /
-                  (static_cast<double>(samples) * omega);
+    series.x[i] =
+        2 * std::numbers::pi * problem.drivePeriods() * static_cast<double>(i) / (static_cast<double>(samples) * omega);
     series.y[i] = i < samples ? value(Vector(positions.row(i).transpose())) : series.y[0];
   }
   return series;

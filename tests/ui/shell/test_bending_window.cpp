@@ -187,7 +187,7 @@ class TestBendingWindow : public QObject {
     panels::PrintPanel& panel = window_->print();
     QTRY_VERIFY(panel.isVisible());
     panel.choose(2, 32, 0);
-    QTRY_VERIFY2(panel.isReady(), qPrintable(panel.findings()));
+    QTRY_VERIFY_WITH_TIMEOUT(panel.isReady(), patience);
     QVERIFY2(panel.findings().startsWith("7 elements") && panel.findings().contains("clearance"),
              qPrintable(panel.findings()));
     QCOMPARE(panel.request().outline, std::string("32.0 mm"));
