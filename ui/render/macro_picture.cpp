@@ -51,7 +51,7 @@ std::string macroFrameLine(const scene::MacroFrame& frame, bool isMotion) {
   else
     std::snprintf(time, sizeof(time), "%.0f %% of the loads", 100 * frame.time);
   const std::string gauges = gaugeText("stretch", frame.stretchGauge) + gaugeText("bending", frame.bendingGauge);
-  return time + (gauges.empty() ? "" : gauges + " of the limits");
+  return time + (gauges.empty() || frame.native ? gauges : gauges + " of the limits");  // half a window is narrow
 }
 
 std::string nativeCaption(const scene::NativeComparison& native, double meanDistance) {
@@ -77,7 +77,7 @@ std::string macroCaption(const scene::MacroResult& result, bool nativeBeside) {
     double largest = 0;
     for (Eigen::Index i = 0; i < result.deflections.cols(); ++i)
       largest = std::max(largest, result.deflections.col(i).norm());
-    text += "\nloads moved by up to " + millimetres(largest);
+    text += (nativeBeside ? "\nmoved by up to " : "\nloads moved by up to ") + millimetres(largest);
   }
   if (result.placed) {
     const auto& [detail, before, check] = *result.placed;
