@@ -90,7 +90,7 @@ class TestBendingWindow : public QObject {
   /// The patch is shown as it locks, with its numbers; the table tells them too.
   void aPatchIsBentAndHung() {
     run("bend");
-    QTRY_VERIFY(patch() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(patch() != nullptr, patience);
     QCOMPARE(patch()->configuration()->state.rotations.size(), std::size_t(7));
     QVERIFY(patch()->configuration()->curvature.has_value() && patch()->markCount() > 0);
     const std::string caption = patch()->caption();
@@ -100,15 +100,15 @@ class TestBendingWindow : public QObject {
     QCOMPARE(table->rowCount(), 3);
     QVERIFY2(table->item(1, 2)->text().endsWith("1/m"), qPrintable(table->item(1, 2)->text()));
     run("hang");
-    QTRY_VERIFY(patch()->configuration()->gravity.has_value());
+    QTRY_VERIFY_WITH_TIMEOUT(patch()->configuration()->gravity.has_value(), patience);
     QCOMPARE(patch()->configuration()->clamped.size(), std::size_t(1));
     QVERIFY(patch()->caption().find("1 elements clamped") != std::string::npos ||
             patch()->caption().find("1 element clamped") != std::string::npos);
     table->setCurrentCell(1, 0);
-    QTRY_VERIFY(patch()->configuration()->curvature.has_value());
+    QTRY_VERIFY_WITH_TIMEOUT(patch()->configuration()->curvature.has_value(), patience);
     // Another gap: what is shown is marked as old.
     window_->document().setValue("/studies/0/final_gap", 0.002, "gap");
-    QTRY_VERIFY(window_->document().study("bend")->stale);
+    QTRY_VERIFY_WITH_TIMEOUT(window_->document().study("bend")->stale, patience);
     table->setCurrentCell(0, 0);
     QVERIFY(!patch());
   }
@@ -167,9 +167,9 @@ class TestBendingWindow : public QObject {
     for (int state = 0; state < 12; ++state) middle += panel.view().pixelOf(state).value() / 12;
     const QPoint place(static_cast<int>(std::lround(middle.x())), static_cast<int>(std::lround(middle.y())));
     QTest::mouseMove(&panel.viewport(), place);
-    QTRY_VERIFY(panel.readout().contains("k_xx") && panel.readout().contains("1/m"));
+    QTRY_VERIFY_WITH_TIMEOUT(panel.readout().contains("k_xx") && panel.readout().contains("1/m"), patience);
     panel.examine(static_cast<int>(highest));
-    QTRY_VERIFY(patch() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(patch() != nullptr, patience);
     const auto& state = panel.result()->boundary.states[static_cast<std::size_t>(highest)];
     QVERIFY(patch()->configuration()->state.positions == state.cell.positions);
     QVERIFY(patch()->markCount() > 0);
@@ -185,7 +185,7 @@ class TestBendingWindow : public QObject {
   void aPatchIsPrinted() {
     window_->actions().find("model.print")->trigger();
     panels::PrintPanel& panel = window_->print();
-    QTRY_VERIFY(panel.isVisible());
+    QTRY_VERIFY_WITH_TIMEOUT(panel.isVisible(), patience);
     panel.choose(2, 32, 0);
     QTRY_VERIFY_WITH_TIMEOUT(panel.isReady(), patience);
     QVERIFY2(panel.findings().startsWith("7 elements") && panel.findings().contains("clearance"),
@@ -198,10 +198,10 @@ class TestBendingWindow : public QObject {
     QVERIFY(QFileInfo(folder_.filePath("patch.stl")).size() > 100'000);
     // Nothing inside: no button, but a sentence.
     panel.choose(2, 1, 0);
-    QTRY_VERIFY(!panel.findings().isEmpty());
+    QTRY_VERIFY_WITH_TIMEOUT(!panel.findings().isEmpty(), patience);
     // Cancelled: no file.
     panel.choose(0, 30, 30);
-    QTRY_VERIFY(panel.isReady());
+    QTRY_VERIFY_WITH_TIMEOUT(panel.isReady(), patience);
     window_->exportPatchTo(folder_.filePath("large.stl"));
     window_->actions().find("study.cancel")->trigger();
     QTRY_VERIFY_WITH_TIMEOUT(!window_->actions().find("study.cancel")->isEnabled(), patience);

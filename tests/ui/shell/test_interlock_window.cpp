@@ -99,11 +99,11 @@ class TestInterlockWindow : public QObject {
     QVERIFY(pixel.has_value());
     const QPoint place(static_cast<int>(std::lround(pixel->x())), static_cast<int>(std::lround(pixel->y())));
     QTest::mouseMove(&panel.viewport(), place);
-    QTRY_VERIFY(panel.readout().contains(QStringLiteral("Limit %1:").arg(highest)));
+    QTRY_VERIFY_WITH_TIMEOUT(panel.readout().contains(QStringLiteral("Limit %1:").arg(highest)), patience);
     QVERIFY(panel.readout().contains("touching") && panel.readout().contains("E_xy"));
     QVERIFY(!window_->viewport().guest());
     QTest::mouseClick(&panel.viewport(), Qt::LeftButton, {}, place);
-    QTRY_VERIFY(limit() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(limit() != nullptr, patience);
     QVERIFY(panel.view().selected() == static_cast<int>(highest));
     const auto& state = panel.result()->boundary.states[static_cast<std::size_t>(highest)];
     QVERIFY(limit()->configuration()->state.strain == state.cell.strain);
@@ -114,7 +114,7 @@ class TestInterlockWindow : public QObject {
     QVERIFY(!limit() && !panel.view().selected());
     // Another scene has none of this any more.
     panel.examine(3);
-    QTRY_VERIFY(limit() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(limit() != nullptr, patience);
     QVERIFY(window_->document().open(folder_.filePath("net.json")));
     QVERIFY(!limit() && !panel.surface());
   }
@@ -139,7 +139,7 @@ class TestInterlockWindow : public QObject {
     // Over it another one: of the document, and from disk.
     window_->document().study("boundary")->result->write(folder_.filePath("kept").toStdString());
     panel.compareWithFile(folder_.filePath("kept/boundary.ply"));
-    QTRY_VERIFY(panel.compared() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(panel.compared() != nullptr, patience);
     QCOMPARE(panel.compared()->knownCount(), 42);
     QCOMPARE(named("Compare")->currentText(), QString("boundary of net"));
     panel.compareWithStudy("");
@@ -147,7 +147,7 @@ class TestInterlockWindow : public QObject {
     int warnings = 0;
     connect(&window_->document(), &document::Document::messageRaised, this, [&] { ++warnings; });
     panel.compareWithFile(folder_.filePath("nothing.ply"));
-    QTRY_COMPARE(warnings, 1);
+    QTRY_COMPARE_WITH_TIMEOUT(warnings, 1, patience);
     disconnect(&window_->document(), nullptr, this, nullptr);
     for (const char* name : {"b.png", "b.ply", "b.csv"}) {
       window_->exportBoundaryTo(folder_.filePath(name));
@@ -183,7 +183,7 @@ class TestInterlockWindow : public QObject {
     QTableWidget* table = window_->cellTests().table();
     QCOMPARE(table->rowCount(), 2);  // at rest, and the one test
     run("stretch");
-    QTRY_VERIFY(limit() != nullptr);
+    QTRY_VERIFY_WITH_TIMEOUT(limit() != nullptr, patience);
     const std::string caption = limit()->caption();
     QVERIFY(caption.find("+13.33 % at 90°") != std::string::npos);  // 4 (R - r) / spacing - 1
     QVERIFY(caption.find("held at") != std::string::npos && caption.find("any number of cells") != std::string::npos);
